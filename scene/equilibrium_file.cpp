@@ -1,0 +1,80 @@
+#include "scene/equilibrium_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace scene {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json list(const Eigen::Vector3d& v) {
+  return {v[0], v[1], v[2]};
+}
+
+std::string text(const std::variant<bool, int, double, std::string>& value) {
+  return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+}
+
+std::string triple(const Eigen::Vector3d& v) {
+  return fmt::format("{:12.6f} {:12.6f} {:12.6f}", v[0], v[1], v[2]);
+}
+
+}  // namespace
+
+std::string to_json(const Equilibrium& result, const std::string& method, double time_us) {
+  Json json{{"method", method}, {"status", name(result.status)}};
+  if (!result.message.empty()) json["message"] = result.message;
+  json["tip"] = nullptr;
+  json["base"] = nullptr;
+  json["centreline"] = Json::array();
+  json["error_estimate_mm"] = nullptr;
+  if (result.converged()) {
+    const Pose& tip = result.tip();
+    Json rotation = Json::array();
+    for (int row = 0; row < 3; ++row) rotation.push_back(list(tip.rotation_BS.row(row)));
+    json["tip"] = {
+        {"position_mm", list(tip.position_B_mm)}, {"rotation", rotation}, {"angle_rad", result.tip_angle_rad}};
+    json["base"] = {{"force_N", list(result.base_force_B_N)}, {"moment_Nmm", list(result.base_moment_B_Nmm)}};
+    for (const Station& station : result.stations) {
+      json["centreline"].push_back({{"s_mm", station.s_mm}, {"position_mm", list(station.X_BS.position_B_mm)}});
+    }
+    json["error_estimate_mm"] = result.error_estimate_mm;
+  }
+  json["time_us"] = time_us;
+  json["model"] = Json::object();
+  for (const auto& [key, value] : result.model) std::visit([&](const auto& v) { json["model"][key] = v; }, value);
+  json["stable"] = result.stable ? Json(*result.stable) : Json(nullptr);
+  return json.dump(2) + "\n";
+}
+
+std::string to_csv(const Equilibrium& result) {
+  std::string csv = "s_mm,x_mm,y_mm,z_mm,R11,R12,R13,R21,R22,R23,R31,R32,R33\n";
+  for (const Station& station : result.stations) {
+    csv += fmt::format("{}", station.s_mm);
+    for (const double coordinate : station.X_BS.position_B_mm) csv += fmt::format(",{}", coordinate);
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) csv += fmt::format(",{}", station.X_BS.rotation_BS(row, column));
+    }
+    csv += "\n";
+  }
+  return csv;
+}
+
+std::string to_text(const Equilibrium& result, const std::string& method, double time_us) {
+  if (!result.converged()) return fmt::format("{}: {}: {}\n", method, name(result.status), result.message);
+  std::string report = fmt::format("{}: converged in {:.3g} us\n\n", method, time_us);
+  report += fmt::format("  {:<24}{:>12} {:>12} {:>12}\n", "", "x", "y", "z");
+  report += fmt::format("  {:<24}{}\n", "tip position, mm", triple(result.tip().position_B_mm));
+  report += fmt::format("  {:<24}{}\n", "tip tangent", triple(result.tip().rotation_BS.col(0)));
+  report += fmt::format("  {:<24}{}\n", "force at the clamp, N", triple(result.base_force_B_N));
+  report += fmt::format("  {:<24}{}\n", "moment at the clamp, N mm", triple(result.base_moment_B_Nmm));
+  report += fmt::format("  {:<24}{:12.6f}\n", "tip rotation angle, rad", result.tip_angle_rad);
+  report += fmt::format("  {:<24}{:12.3g}\n", "estimated tip error, mm", result.error_estimate_mm);
+  if (result.stable) report += fmt::format("  {:<24}{}\n", "equilibrium", *result.stable ? "stable" : "unstable");
+  report += "\n  model\n";
+  for (const auto& [key, value] : result.model) report += fmt::format("    {:<18}{}\n", key, text(value));
+  return report;
+}
+
+}  // namespace scene

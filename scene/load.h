@@ -1,0 +1,50 @@
+// The kinds of load that act on a rod.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <variant>
+
+namespace scene {
+
+// follower: components constant in the section frame S at the load's place, turning with it.
+// fixed: components constant in the base frame B (a dead load; a fixed moment keeps its axis).
+enum class Frame { follower, fixed };
+
+struct Force {
+  double at_mm = 0;  // arc length from the clamp
+  Frame frame = Frame::follower;
+  Eigen::Vector3d value_N = Eigen::Vector3d::Zero();
+};
+
+struct Moment {
+  double at_mm = 0;
+  Frame frame = Frame::follower;
+  Eigen::Vector3d value_Nmm = Eigen::Vector3d::Zero();
+};
+
+// Force per undeformed length on from_mm <= s <= to_mm.
+struct DistributedForce {
+  double from_mm = 0;
+  double to_mm = 0;
+  Frame frame = Frame::follower;
+  Eigen::Vector3d value_N_per_mm = Eigen::Vector3d::Zero();
+};
+
+// Acts on every section that has a mass; components in the base frame.
+struct Gravity {
+  Eigen::Vector3d acceleration_m_per_s2 = Eigen::Vector3d::Zero();
+};
+
+// Straight frictionless tendon parallel to the axis at (y, z) = offset_mm, fixed at to_mm and running through the
+// clamp with constant tension. It loads the rod on 0 <= s <= to_mm with the internal force -T e_x and the internal
+// moment r x (-T e_x), both in the section frame.
+struct Tendon {
+  Eigen::Vector2d offset_mm = Eigen::Vector2d::Zero();
+  double tension_N = 0;
+  double to_mm = 0;
+};
+
+using Load = std::variant<Force, Moment, DistributedForce, Gravity, Tendon>;
+
+}  // namespace scene

@@ -1,0 +1,364 @@
+#include "scene/scene_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <initializer_list>
+#include <iostream>
+#include <iterator>
+#include <set>
+
+namespace scene {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr int max_depth = 16;  // the format needs 6
+
+[[noreturn]] void refuse(const std::string& source, const std::string& path, const std::string& value,
+                         const std::string& rule) {
+  constexpr std::size_t longest = 80;
+  const std::string shown = value.size() > longest ? value.substr(0, longest) + "..." : value;
+  throw SceneError(source + ": " + (path.empty() ? "(top level)" : path) + " = " + shown + ": " + rule);
+}
+
+std::string dump(const Json& value) {
+  return value.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
+std::string join(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
+}
+
+// Follows the parser so that an error inside the text can be named by its JSON path; refuses a key given twice,
+// of which a JSON parser would silently keep the last.
+class PathTracker {
+ public:
+  explicit PathTracker(const std::string& source) : source_(source) {}
+
+  bool operator()(int /*depth*/, Json::parse_event_t event, const Json& parsed) {
+    using Event = Json::parse_event_t;
+    if (event == Event::object_start || event == Event::array_start) {
+      levels_.push_back({event == Event::array_start, {}, {}, 0});
+      if (levels_.size() > max_depth) refuse(source_, path(), "{...", "nested too deeply for a scene");
+    } else if (event == Event::key) {
+      Level& level = levels_.back();
+      level.key = parsed.get<std::string>();
+      if (!level.keys.insert(level.key).second) refuse(source_, path(), dump(parsed), "the key is given twice");
+    } else {
+      if (event != Event::value) levels_.pop_back();
+      if (!levels_.empty() && levels_.back().is_array) ++levels_.back().index;
+    }
+    return true;
+  }
+
+  std::string path() const {
+    std::string text;
+    for (const Level& level : levels_) {
+      if (level.is_array) text += "[" + std::to_string(level.index) + "]";
+      else if (!level.key.empty()) text = join(text, level.key);
+    }
+    return text;
+  }
+
+ private:
+  struct Level {
+    bool is_array;
+    std::set<std::string> keys;
+    std::string key;
+    int index;
+  };
+
+  const std::string& source_;
+  std::vector<Level> levels_;
+};
+
+// A JSON value with its path, read key by key.
+class Node {
+ public:
+  Node(const Json& json, std::string path, const std::string& source)
+      : json_(json), path_(std::move(path)), source_(source) {}
+
+  [[noreturn]] void refuse(const std::string& rule) const { scene::refuse(source_, path_, dump(json_), rule); }
+
+  void require_object() const {
+    if (!json_.is_object()) refuse("must be an object");
+  }
+
+  // Refuses anything but an object with these keys.
+  void allow_keys(std::initializer_list<const char*> keys) const {
+    require_object();
+    for (const auto& [key, value] : json_.items()) {
+      bool known = false;
+      std::string all;
+      for (const char* allowed : keys) {
+        known |= key == allowed;
+        all += (all.empty() ? "" : ", ") + std::string(allowed);
+      }
+      if (!known) scene::refuse(source_, join(path_, key), dump(value), "unknown key; known here: " + all);
+    }
+  }
+
+  bool has(const char* key) const { return json_.contains(key); }
+
+  Node at(const char* key) const {
+    if (!has(key)) scene::refuse(source_, join(path_, key), "(missing)", "the key is required");
+    return {json_.at(key), join(path_, key), source_};
+  }
+
+  std::vector<Node> items() const {
+    if (!json_.is_array()) refuse("must be an array");
+    std::vector<Node> nodes;
+    for (std::size_t i = 0; i < json_.size(); ++i) {
+      nodes.emplace_back(json_[i], path_ + "[" + std::to_string(i) + "]", source_);
+    }
+    return nodes;
+  }
+
+  double number() const {
+    if (!json_.is_number()) refuse("must be a number");
+    return json_.get<double>();
+  }
+
+  double number_or(const char* key, double otherwise) const { return has(key) ? at(key).number() : otherwise; }
+
+  std::string string() const {
+    if (!json_.is_string()) refuse("must be a string");
+    return json_.get<std::string>();
+  }
+
+  template <int Size>
+  Eigen::Matrix<double, Size, 1> vector() const {
+    if (!json_.is_array() || json_.size() != Size) refuse("must be an array of " + std::to_string(Size) + " numbers");
+    Eigen::Matrix<double, Size, 1> values;
+    for (int i = 0; i < Size; ++i) values[i] = items()[static_cast<std::size_t>(i)].number();
+    return values;
+  }
+
+  // A number for both axes, or [y, z].
+  Vector2d number_or_pair() const {
+    if (json_.is_number()) return Vector2d::Constant(number());
+    if (!json_.is_array()) refuse("must be a number or an array of 2 numbers");
+    return vector<2>();
+  }
+
+  bool is_tip() const { return json_ == "tip"; }
+
+  Frame frame() const {
+    if (json_ == "follower") return Frame::follower;
+    if (json_ == "fixed") return Frame::fixed;
+    refuse("must be \"follower\" or \"fixed\"");
+  }
+
+ private:
+  const Json& json_;
+  std::string path_;
+  const std::string& source_;
+};
+
+Stiffness read_stiffness(const Node& node) {
+  node.allow_keys({"bending_Nmm2", "torsion_Nmm2", "axial_N", "shear_N", "mass_per_length_kg_per_m"});
+  Stiffness stiffness;
+  stiffness.bending_Nmm2 = node.at("bending_Nmm2").number_or_pair();
+  stiffness.torsion_Nmm2 = node.at("torsion_Nmm2").number();
+  if (node.has("axial_N")) stiffness.axial_N = node.at("axial_N").number();
+  if (node.has("shear_N")) stiffness.shear_N = node.at("shear_N").number_or_pair();
+  stiffness.mass_per_length_kg_per_m = node.number_or("mass_per_length_kg_per_m", 0);
+  return stiffness;
+}
+
+CircularSection read_circle(const Node& geometry, const Node& material) {
+  geometry.allow_keys({"outer_diameter_mm", "inner_diameter_mm"});
+  material.allow_keys({"youngs_modulus_MPa", "poissons_ratio", "density_kg_per_m3"});
+  return {.outer_diameter_mm = geometry.at("outer_diameter_mm").number(),
+          .inner_diameter_mm = geometry.number_or("inner_diameter_mm", 0),
+          .youngs_modulus_MPa = material.at("youngs_modulus_MPa").number(),
+          .poissons_ratio = material.at("poissons_ratio").number(),
+          .density_kg_per_m3 = material.number_or("density_kg_per_m3", 0)};
+}
+
+Section read_section(const Node& node) {
+  node.allow_keys({"length_mm", "stiffness", "geometry", "material", "rest_curvature_per_mm"});
+  Section section;
+  section.length_mm = node.at("length_mm").number();
+  if (node.has("rest_curvature_per_mm")) section.rest_curvature_per_mm = node.at("rest_curvature_per_mm").vector<3>();
+  const bool circular = node.has("geometry") || node.has("material");
+  if (circular == node.has("stiffness")) node.refuse("must have either stiffness, or geometry and material");
+  if (circular) section.cross_section = read_circle(node.at("geometry"), node.at("material"));
+  else section.cross_section = read_stiffness(node.at("stiffness"));
+  return section;
+}
+
+double read_place(const Node& node, double length) {
+  const Node at = node.at("at");
+  return at.is_tip() ? length : at.number();
+}
+
+Load read_load(const Node& node, double length) {
+  node.require_object();
+  const Node kind_node = node.at("kind");
+  const std::string kind = kind_node.string();
+  if (kind == "force") {
+    node.allow_keys({"kind", "at", "frame", "value_N"});
+    return Force{read_place(node, length), node.at("frame").frame(), node.at("value_N").vector<3>()};
+  }
+  if (kind == "moment") {
+    node.allow_keys({"kind", "at", "frame", "value_Nmm"});
+    return Moment{read_place(node, length), node.at("frame").frame(), node.at("value_Nmm").vector<3>()};
+  }
+  if (kind == "distributed_force") {
+    node.allow_keys({"kind", "from_mm", "to_mm", "frame", "value_N_per_mm"});
+    return DistributedForce{node.number_or("from_mm", 0), node.number_or("to_mm", length), node.at("frame").frame(),
+                            node.at("value_N_per_mm").vector<3>()};
+  }
+  if (kind == "gravity") {
+    node.allow_keys({"kind", "acceleration_m_per_s2"});
+    return Gravity{node.at("acceleration_m_per_s2").vector<3>()};
+  }
+  if (kind == "tendon") {
+    node.allow_keys({"kind", "offset_mm", "tension_N", "to_mm"});
+    return Tendon{node.at("offset_mm").vector<2>(), node.at("tension_N").number(), node.at("to_mm").number()};
+  }
+  kind_node.refuse("must be force, moment, distributed_force, gravity or tendon");
+}
+
+Scene read(const Node& node) {
+  node.allow_keys({"title", "rod", "loads"});
+  Scene scene;
+  if (node.has("title")) scene.title = node.at("title").string();
+  const Node rod = node.at("rod");
+  rod.allow_keys({"sections"});
+  for (const Node& section : rod.at("sections").items()) scene.sections.push_back(read_section(section));
+  if (node.has("loads")) {
+    const double length = length_mm(scene);
+    for (const Node& load : node.at("loads").items()) scene.loads.push_back(read_load(load, length));
+  }
+  return scene;
+}
+
+Json parse(const std::string& text, const std::string& source) {
+  PathTracker tracker(source);
+  try {
+    return Json::parse(text, std::ref(tracker));
+  } catch (const Json::parse_error& error) {
+    const std::string what = error.what();  // "[json.exception...] parse error at line 1, column 2: ..."
+    refuse(source, tracker.path(), "(unreadable)", "not JSON: " + what.substr(what.find("] ") + 2));
+  } catch (const Json::out_of_range& error) {
+    const std::string what = error.what();  // "... number overflow parsing '1e999'"
+    const std::size_t quote = what.find('\'');
+    const std::string number = quote == std::string::npos ? "?" : what.substr(quote + 1, what.rfind('\'') - quote - 1);
+    refuse(source, tracker.path(), number, "must be finite: the number does not fit a double");
+  }
+}
+
+}  // namespace
+
+Scene read_scene(std::istream& input, const std::string& source) {
+  std::string text;
+  char block[1 << 16];
+  while (input.read(block, sizeof block), input.gcount() > 0) {
+    text.append(block, static_cast<std::size_t>(input.gcount()));
+    if (text.size() > max_scene_file_bytes) {
+      refuse(source, "", "(too large)", "a scene file has at most " + std::to_string(max_scene_file_bytes) + " bytes");
+    }
+  }
+  const Json json = parse(text, source);
+  const Scene scene = read(Node(json, "", source));
+  validate(scene, source);
+  return scene;
+}
+
+Scene read_scene_file(const std::string& path) {
+  if (path == "-") return read_scene(std::cin, "(standard input)");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw SceneError(path + ": (file) = (unreadable): must be a readable scene file");
+  return read_scene(file, path);
+}
+
+namespace {
+
+template <class Vector>
+Json list(const Vector& values) {
+  Json array = Json::array();
+  for (int i = 0; i < values.size(); ++i) array.push_back(values[i]);
+  return array;
+}
+
+const char* name(Frame frame) {
+  return frame == Frame::follower ? "follower" : "fixed";
+}
+
+Json place(double at_mm, double length) {
+  return at_mm == length ? Json("tip") : Json(at_mm);
+}
+
+Json write(const Stiffness& stiffness) {
+  Json json{{"bending_Nmm2", list(stiffness.bending_Nmm2)}, {"torsion_Nmm2", stiffness.torsion_Nmm2}};
+  if (stiffness.axial_N) json["axial_N"] = *stiffness.axial_N;
+  if (stiffness.shear_N) json["shear_N"] = list(*stiffness.shear_N);
+  if (stiffness.mass_per_length_kg_per_m > 0) json["mass_per_length_kg_per_m"] = stiffness.mass_per_length_kg_per_m;
+  return json;
+}
+
+Json write(const Section& section) {
+  Json json{{"length_mm", section.length_mm}};
+  if (const auto* circle = std::get_if<CircularSection>(&section.cross_section)) {
+    json["geometry"] = {{"outer_diameter_mm", circle->outer_diameter_mm},
+                        {"inner_diameter_mm", circle->inner_diameter_mm}};
+    json["material"] = {{"youngs_modulus_MPa", circle->youngs_modulus_MPa}, {"poissons_ratio", circle->poissons_ratio}};
+    if (circle->density_kg_per_m3 > 0) json["material"]["density_kg_per_m3"] = circle->density_kg_per_m3;
+  } else {
+    json["stiffness"] = write(std::get<Stiffness>(section.cross_section));
+  }
+  if (!section.rest_curvature_per_mm.isZero(0)) json["rest_curvature_per_mm"] = list(section.rest_curvature_per_mm);
+  return json;
+}
+
+struct LoadWriter {
+  double length;
+
+  Json operator()(const Force& force) const {
+    return {{"kind", "force"},
+            {"at", place(force.at_mm, length)},
+            {"frame", name(force.frame)},
+            {"value_N", list(force.value_N)}};
+  }
+  Json operator()(const Moment& moment) const {
+    return {{"kind", "moment"},
+            {"at", place(moment.at_mm, length)},
+            {"frame", name(moment.frame)},
+            {"value_Nmm", list(moment.value_Nmm)}};
+  }
+  Json operator()(const DistributedForce& force) const {
+    return {{"kind", "distributed_force"},
+            {"from_mm", force.from_mm},
+            {"to_mm", force.to_mm},
+            {"frame", name(force.frame)},
+            {"value_N_per_mm", list(force.value_N_per_mm)}};
+  }
+  Json operator()(const Gravity& gravity) const {
+    return {{"kind", "gravity"}, {"acceleration_m_per_s2", list(gravity.acceleration_m_per_s2)}};
+  }
+  Json operator()(const Tendon& tendon) const {
+    return {{"kind", "tendon"},
+            {"offset_mm", list(tendon.offset_mm)},
+            {"tension_N", tendon.tension_N},
+            {"to_mm", tendon.to_mm}};
+  }
+};
+
+}  // namespace
+
+std::string write_scene(const Scene& scene) {
+  Json json;
+  if (!scene.title.empty()) json["title"] = scene.title;
+  json["rod"]["sections"] = Json::array();
+  for (const Section& section : scene.sections) json["rod"]["sections"].push_back(write(section));
+  json["loads"] = Json::array();
+  for (const Load& load : scene.loads) json["loads"].push_back(std::visit(LoadWriter{length_mm(scene)}, load));
+  return json.dump(2) + "\n";
+}
+
+}  // namespace scene
