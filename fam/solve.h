@@ -1,0 +1,48 @@
+// Entry point of the finite arc method: a scene and options in, an equilibrium out.
+#pragma once
+
+#include "fam/march.h"
+
+#include "scene/equilibrium.h"
+#include "scene/scene.h"
+
+#include <optional>
+#include <string>
+
+namespace fam {
+
+constexpr int max_arcs = 1'000'000;
+
+struct Options {
+  Law law = Law::automatic;                         // automatic: fourth_order
+  RodModel model = RodModel::automatic;             // automatic: Kirchhoff unless the scene stretches or shears visibly
+  TwistOrder twist_order = TwistOrder::bend_twist;  // of the published law
+
+  // Number of arcs, 1..max_arcs; 0: as many as the tolerance asks for. Each span between section changes and loads
+  // gets at least one, whatever is asked for.
+  int arcs = 0;
+  // Largest tip error wanted, mm; 0: 1e-3 of the rod's length. Used only where arcs = 0.
+  double tolerance_mm = 0;
+
+  // With a fixed number of arcs the error estimate takes a second march of twice as many; false leaves it out (0).
+  bool estimate_error = true;
+};
+
+const char* name(Law law);
+
+// Solves a valid scene (scene::validate). Numerical trouble is a status, never an exception:
+//   unsupported        a load in a fixed frame or a distributed force; published law with shear or EI_y != EI_z
+//   arc_not_converged  see fam/arc_law.h
+//   tolerance_not_met  estimated tip error > tolerance with max_arcs arcs
+//   not_finite         overflow
+// The error estimate is the largest distance between the arc ends with N and with 2N arcs, times 2^p/(2^p - 1) for
+// the law's order p (published: p = 1, its order in 3D), plus the round-off 4 eps L sqrt(N). It estimates the
+// discretisation error of the chosen rod model; where the automatic choice leaves out shear and stretch, the bound
+// on what they could do is added.
+scene::Equilibrium solve(const scene::Scene& scene, const Options& options = {});
+
+// The march that options with fixed arcs, law and model describe, ready to run without further allocation; empty where
+// solve() would end in `unsupported`, with the reason.
+std::optional<March> prepare(const scene::Scene& scene, const Options& options, std::string& reason);
+
+}  // namespace fam
