@@ -1,0 +1,105 @@
+#include "apps/solve_command.h"
+
+#include "scene/equilibrium_file.h"
+#include "scene/scene_file.h"
+#include "studies/chart.h"
+#include "studies/output_file.h"
+#include "studies/shape_chart.h"
+#include "studies/stopwatch.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace apps {
+namespace {
+
+// One view where the rod stays in the x-y plane, three where it does not.
+std::string picture(const scene::Scene& scene, const scene::Equilibrium& result, const std::string& method) {
+  using namespace studies;
+  const bool planar = std::all_of(result.stations.begin(), result.stations.end(), [](const scene::Station& station) {
+    return std::abs(station.X_BS.position_B_mm[2]) < 1e-12 * (1 + station.s_mm);
+  });
+  const std::vector<View> views = planar ? std::vector<View>{{0, 1}} : std::vector<View>{{0, 1}, {0, 2}, {1, 2}};
+  Centreline unloaded{"", {Eigen::Vector3d::Zero(), {scene::length_mm(scene), 0, 0}}, colour::grey, "4 3", false};
+  return shape_chart({unloaded, centreline(result, method, colour::blue)}, views, scene.title);
+}
+
+std::string not_positive(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return *end == 0 && std::isfinite(value) && value > 0 ? "" : "must be a number > 0";
+}
+
+// An option that takes one of a few names.
+template <class Value>
+void add_choice(CLI::App* command, const std::string& option, Value& target, const std::string& what,
+                const std::map<std::string, Value>& names) {
+  command
+      ->add_option_function<std::string>(
+          option, [&target, names](const std::string& n) { target = names.at(n); }, what)
+      ->check(CLI::IsMember(names));
+}
+
+}  // namespace
+
+CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments) {
+  fam::Options& options = arguments.fam;
+  CLI::App* solve = app.add_subcommand("solve", "Solve one scene");
+  solve->add_option("scene", arguments.scene_path, "Scene file (JSON), or - for standard input")->required();
+  auto* tolerance = solve->add_option("--tolerance-mm", options.tolerance_mm,
+                                      "Largest estimated tip error, mm (default: 1e-3 of the length)");
+  tolerance->check(CLI::Validator(not_positive, "> 0"));
+  solve->add_option("--arcs", options.arcs, "Number of arcs")->check(CLI::Range(1, fam::max_arcs))->excludes(tolerance);
+  add_choice<fam::Law>(solve, "--law", options.law, "Arc law",
+                       {{"auto", fam::Law::automatic},
+                        {"published", fam::Law::published},
+                        {"midpoint", fam::Law::midpoint},
+                        {"fourth_order", fam::Law::fourth_order}});
+  add_choice<fam::RodModel>(solve, "--model", options.model, "Rod model",
+                            {{"auto", fam::RodModel::automatic},
+                             {"kirchhoff", fam::RodModel::kirchhoff},
+                             {"reissner", fam::RodModel::reissner}});
+  add_choice<fam::TwistOrder>(
+      solve, "--twist-order", options.twist_order, "Published law: rotation order",
+      {{"bend_twist", fam::TwistOrder::bend_twist}, {"twist_bend", fam::TwistOrder::twist_bend}});
+  solve->add_option("--format", arguments.format, "text, json or csv")->check(CLI::IsMember({"text", "json", "csv"}));
+  solve->add_option("--svg", arguments.svg_path, "Write a picture of the deformed centreline to this file");
+  return solve;
+}
+
+int run_solve(const SolveArguments& arguments, const MethodFactory& make_method) {
+  const scene::Scene scene = scene::read_scene_file(arguments.scene_path);
+  const std::unique_ptr<studies::Method> method = make_method(arguments);
+  const scene::Equilibrium result = method->solve(scene);
+  const double time_us = result.converged() ? studies::measure(method->bare_solve(scene)).median_us : 0;
+  if (result.converged() && !arguments.svg_path.empty()) {
+    studies::write_file(arguments.svg_path, picture(scene, result, method->name()));
+  }
+  if (arguments.format == "json") {
+    fmt::print("{}", scene::to_json(result, arguments.method, time_us));
+  } else if (result.converged()) {
+    fmt::print("{}",
+               arguments.format == "csv" ? scene::to_csv(result) : scene::to_text(result, method->name(), time_us));
+  }
+  if (result.converged()) return exit_solved;
+  fmt::print(stderr, "{}: {}: {}\n", arguments.scene_path, scene::name(result.status), result.message);
+  return exit_not_converged;
+}
+
+int run(CLI::App& app, int argc, char** argv, const std::function<int()>& work) {
+  try {
+    app.parse(argc, argv);
+    return work();
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_solved : exit_wrong_input;
+  } catch (const scene::SceneError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return exit_wrong_input;
+  } catch (const studies::OutputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return exit_not_converged;
+  }
+}
+
+}  // namespace apps

@@ -1,0 +1,34 @@
+#include "studies/fam_method.h"
+
+namespace studies {
+namespace {
+
+class FamMethod : public Method {
+ public:
+  explicit FamMethod(const fam::Options& options) : options_(options) {}
+
+  std::string name() const override { return std::string("fam ") + fam::name(options_.law); }
+  std::string resolution() const override {
+    return options_.arcs > 0 ? std::to_string(options_.arcs) + " arcs" : "automatic";
+  }
+  scene::Equilibrium solve(const scene::Scene& scene) const override { return fam::solve(scene, options_); }
+
+  std::function<void()> bare_solve(const scene::Scene& scene) const override {
+    if (options_.arcs == 0) return [scene, options = options_] { fam::solve(scene, options); };
+    std::string reason;
+    std::optional<fam::March> march = fam::prepare(scene, options_, reason);
+    if (!march) return [] {};
+    return [march = std::move(*march)]() mutable { march.run(); };
+  }
+
+ private:
+  fam::Options options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Method> fam_method(const fam::Options& options) {
+  return std::make_unique<FamMethod>(options);
+}
+
+}  // namespace studies

@@ -1,0 +1,34 @@
+#include "studies/output_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+namespace studies {
+
+void write_file(const std::filesystem::path& path, const std::string& text) {
+  const auto fail = [&](const std::string& reason) {
+    throw OutputError(path.string() + ": cannot be written: " + reason);
+  };
+  std::error_code error;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
+  if (error) fail(error.message());
+
+  std::filesystem::path partial = path;
+  partial += ".partial";
+  errno = 0;
+  {
+    std::ofstream file(partial, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file) {
+      const std::string reason = std::strerror(errno);
+      std::filesystem::remove(partial, error);
+      fail(reason);
+    }
+  }
+  std::filesystem::rename(partial, path, error);
+  if (error) fail(error.message());
+}
+
+}  // namespace studies

@@ -1,0 +1,18 @@
+// Result files: written whole under another name and then renamed, so that none is ever half-written.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+namespace studies {
+
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Writes text to a file, making its folder; throws OutputError naming the path and the system's reason.
+void write_file(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace studies
