@@ -1,0 +1,186 @@
+#include "fem_reference/beam_element.h"
+
+#include "fem_reference/section_strain.h"
+
+#include <array>
+
+namespace fem_reference {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Matrix4d;
+using Eigen::Vector3d;
+using Matrix43 = Eigen::Matrix<double, 4, 3>;
+
+// Derivatives by arc length are those by the reference coordinate over the element's length.
+struct Interpolated {
+  Vector3d dr_B;  // r'
+  Quaternion p;
+  Quaternion dp;  // p'
+};
+
+Interpolated interpolate(const ReferenceElement& reference, double length, const ElementState& state, int g) {
+  Interpolated at{Vector3d::Zero(), Quaternion::Zero(), Quaternion::Zero()};
+  for (int i = 0; i < reference.nodes(); ++i) {
+    const auto node = static_cast<std::size_t>(i);
+    at.dr_B += reference.slope(g, i) / length * state.position_B[node];
+    at.p += reference.value(g, i) * state.rotation_BS[node];
+    at.dp += reference.slope(g, i) / length * state.rotation_BS[node];
+  }
+  return at;
+}
+
+// Derivative of q exp(rotation) by the rotation vector at zero.
+Matrix43 by_rotation(const Quaternion& q) {
+  Matrix43 E;
+  E.row(0) = -q.tail<3>().transpose();
+  E.bottomRows<3>() = q[0] * Matrix3d::Identity() + skew(q.tail<3>());
+  return 0.5 * E;
+}
+
+// Gradient and Hessian of the integrand by r', p, p' and n at one Gauss point, and the external force per length.
+struct PointTerms {
+  Matrix3d R;
+  Vector3d by_dr;  // R n
+  Vector3d by_n;   // v - e_x - C (n + tendon)
+  Quaternion by_p, by_dp;
+  Matrix34 by_dr_p;  // second derivatives, rows by the first, columns by the second name
+  Matrix34 by_n_p;
+  Matrix4d by_p_p, by_p_dp, by_dp_dp;
+  Vector3d load_B;
+  Matrix34 load_by_p;
+};
+
+PointTerms point_terms(const ElementData& data, const Interpolated& at, const Vector3d& n, double load_factor) {
+  PointTerms terms;
+  terms.R = rotation_matrix(at.p);
+  terms.by_dr = terms.R * n;
+  terms.by_n = terms.R.transpose() * at.dr_B - Vector3d::UnitX() -
+               data.force_compliance.cwiseProduct(n + load_factor * data.tendon_force_S);
+  terms.by_dr_p = rotated_by_p(at.p, n);
+  terms.by_n_p = rotated_back_by_p(at.p, at.dr_B);
+
+  const Curvature u = curvature(at.p, at.dp);
+  const Vector3d m =
+      data.moment_stiffness.cwiseProduct(u.value - data.rest_curvature) - load_factor * data.tendon_moment_S;
+  const CurvaturePower power = curvature_power(at.p, at.dp, m);
+  terms.by_p = terms.by_n_p.transpose() * n + u.by_p.transpose() * m;
+  terms.by_dp = u.by_dp.transpose() * m;
+  const Matrix34 K_by_p = data.moment_stiffness.asDiagonal() * u.by_p;
+  const Matrix34 K_by_dp = data.moment_stiffness.asDiagonal() * u.by_dp;
+  terms.by_p_p = power_by_p_p(at.p, at.dr_B, n) + power.by_p_p + u.by_p.transpose() * K_by_p;
+  terms.by_p_dp = power.by_p_dp + u.by_p.transpose() * K_by_dp;
+  terms.by_dp_dp = u.by_dp.transpose() * K_by_dp;
+
+  terms.load_B = load_factor * (data.fixed_force_B + terms.R * data.follower_force_S);
+  terms.load_by_p = load_factor * rotated_by_p(at.p, data.follower_force_S);
+  return terms;
+}
+
+// Where a node's or a point's unknowns start among the element's.
+int displacement_of(int node) {
+  return 6 * node;
+}
+int rotation_of(int node) {
+  return 6 * node + 3;
+}
+int force_of(const ReferenceElement& reference, int g) {
+  return 6 * reference.nodes() + 3 * g;
+}
+
+using NodalMaps = std::array<Matrix43, max_nodes>;         // derivative of each q_i by its rotation vector
+using NodalGradients = std::array<Quaternion, max_nodes>;  // derivative of the functional by each q_i
+
+void add_residual(const ReferenceElement& reference, double length, int g, const PointTerms& terms,
+                  NodalGradients& by_q, ElementSystem& system) {
+  const double w = reference.weight(g) * length;
+  system.residual.segment<3>(force_of(reference, g)) += w * terms.by_n;
+  for (int i = 0; i < reference.nodes(); ++i) {
+    const double N = reference.value(g, i), dN = reference.slope(g, i) / length;
+    system.residual.segment<3>(displacement_of(i)) += w * (dN * terms.by_dr - N * terms.load_B);
+    by_q[static_cast<std::size_t>(i)] += w * (N * terms.by_p + dN * terms.by_dp);
+  }
+}
+
+void add_tangent(const ReferenceElement& reference, double length, int g, const PointTerms& terms,
+                 const Vector3d& force_compliance, const NodalMaps& E, ElementSystem& system) {
+  const double w = reference.weight(g) * length;
+  const int n = force_of(reference, g);
+  auto& K = system.tangent;
+  K.block<3, 3>(n, n) -= w * Matrix3d(force_compliance.asDiagonal());
+  for (int j = 0; j < reference.nodes(); ++j) {
+    const double Nj = reference.value(g, j), dNj = reference.slope(g, j) / length;
+    const int rj = displacement_of(j), tj = rotation_of(j);
+    const Matrix43& Ej = E[static_cast<std::size_t>(j)];
+    const Matrix3d n_by_t = w * Nj * terms.by_n_p * Ej;
+    K.block<3, 3>(n, rj) += w * dNj * terms.R.transpose();
+    K.block<3, 3>(rj, n) += w * dNj * terms.R;
+    K.block<3, 3>(n, tj) += n_by_t;
+    K.block<3, 3>(tj, n) += n_by_t.transpose();
+    const Matrix43 by_p_t = (Nj * terms.by_p_p + dNj * terms.by_p_dp) * Ej;
+    const Matrix43 by_dp_t = (Nj * terms.by_p_dp.transpose() + dNj * terms.by_dp_dp) * Ej;
+    const Matrix3d by_dr_t = Nj * terms.by_dr_p * Ej;
+    const Matrix3d load_by_t = Nj * terms.load_by_p * Ej;
+    for (int i = 0; i < reference.nodes(); ++i) {
+      const double Ni = reference.value(g, i), dNi = reference.slope(g, i) / length;
+      const int ri = displacement_of(i), ti = rotation_of(i);
+      const Matrix3d r_by_t = w * dNi * by_dr_t;
+      K.block<3, 3>(ti, tj) += w * E[static_cast<std::size_t>(i)].transpose() * (Ni * by_p_t + dNi * by_dp_t);
+      K.block<3, 3>(ri, tj) += r_by_t - w * Ni * load_by_t;
+      K.block<3, 3>(tj, ri) += r_by_t.transpose();
+    }
+  }
+}
+
+}  // namespace
+
+void element_system(const ReferenceElement& reference, const ElementData& data, const ElementState& state,
+                    double load_factor, ElementSystem& system) {
+  const int size = 6 * reference.nodes() + 3 * reference.points();
+  system.residual.setZero(size);
+  system.tangent.setZero(size, size);
+  NodalMaps E;
+  NodalGradients by_q;
+  for (int i = 0; i < reference.nodes(); ++i) {
+    const auto node = static_cast<std::size_t>(i);
+    E[node] = by_rotation(state.rotation_BS[node]);
+    by_q[node].setZero();
+  }
+  for (int g = 0; g < reference.points(); ++g) {
+    const Interpolated at = interpolate(reference, data.length, state, g);
+    const PointTerms terms = point_terms(data, at, state.force_S[static_cast<std::size_t>(g)], load_factor);
+    add_residual(reference, data.length, g, terms, by_q, system);
+    add_tangent(reference, data.length, g, terms, data.force_compliance, E, system);
+  }
+  for (int i = 0; i < reference.nodes(); ++i) {
+    const auto node = static_cast<std::size_t>(i);
+    const int t = rotation_of(i);
+    const Vector3d moment_S = E[node].transpose() * by_q[node];
+    system.residual.segment<3>(t) = moment_S;
+    // The map E_i turns with its own node: d(E_i^T g) = E_i^T dg + (dE_i)^T g.
+    system.tangent.block<3, 3>(t, t) +=
+        0.5 * skew(moment_S) - 0.25 * state.rotation_BS[node].dot(by_q[node]) * Matrix3d::Identity();
+  }
+}
+
+SectionStrain element_strain(const ReferenceElement& reference, const ElementData& data, const ElementState& state,
+                             int g) {
+  const Interpolated at = interpolate(reference, data.length, state, g);
+  return {rotated(conjugate(at.p), at.dr_B), curvature(at.p, at.dp).value};
+}
+
+NodalSystem nodal_system(const NodalLoad& load, const Quaternion& rotation_BS, double load_factor) {
+  const Matrix3d R = rotation_matrix(rotation_BS);
+  const Vector3d fixed_moment_S = R.transpose() * load.fixed_B.moment_Nmm;
+  NodalSystem system;
+  system.residual.head<3>() = -load_factor * (load.fixed_B.force_N + R * load.follower_S.force_N);
+  system.residual.tail<3>() = -load_factor * (fixed_moment_S + load.follower_S.moment_Nmm);
+  // d(R f) = -R [f]x d(rotation) and d(R^T m) = [R^T m]x d(rotation); a follower moment does not change.
+  system.tangent.setZero();
+  system.tangent.block<3, 3>(0, 3) = load_factor * R * skew(load.follower_S.force_N);
+  system.tangent.block<3, 3>(3, 3) = -load_factor * skew(fixed_moment_S);
+  return system;
+}
+
+}  // namespace fem_reference

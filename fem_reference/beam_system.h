@@ -1,0 +1,38 @@
+// The whole beam: unknowns, assembly and linear solution, on deal.II, which no other header here shows.
+#pragma once
+
+#include "fem_reference/beam_model.h"
+
+#include <memory>
+
+namespace fem_reference {
+
+// Residual of a state, dimensionless as in beam_model.h.
+struct Residual {
+  double largest_force = 0;  // of the equilibrium equations of the free nodes
+  double largest_moment = 0;
+  double largest_gap = 0;         // of the strain equations of the Gauss points, weighted by length
+  Eigen::Vector3d clamp_force_B;  // exerted by the wall on the rod
+  Eigen::Vector3d clamp_moment_B;
+
+  double largest() const;
+  bool finite() const;
+};
+
+class BeamSystem {
+ public:
+  explicit BeamSystem(const BeamModel& model);  // keeps a reference to the model
+  ~BeamSystem();
+
+  // Residual and tangent at a state under load_factor times the loads.
+  Residual assemble(const BeamState& state, double load_factor);
+
+  // Newton increment of the system assembled last, clamped at s = 0. False: the matrix is singular.
+  bool newton_increment(BeamIncrement& increment);
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace fem_reference

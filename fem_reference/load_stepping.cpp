@@ -1,0 +1,171 @@
+#include "fem_reference/load_stepping.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace fem_reference {
+
+namespace {
+
+enum class Outcome { converged, turned_too_far, stalled, singular, not_finite };
+
+const char* reason(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::converged: return "converged";
+    case Outcome::turned_too_far: return "a node turns too far in one step";
+    case Outcome::stalled: return "Newton's iteration does not converge";
+    case Outcome::singular: return "the tangent is singular";
+    case Outcome::not_finite: return "a value is not finite";
+  }
+  return "";
+}
+
+template <typename Vectors>
+double largest(const Vectors& vectors) {
+  double result = 0;
+  for (const auto& vector : vectors) result = std::max(result, vector.template lpNorm<Eigen::Infinity>());
+  return result;
+}
+
+struct Attempt {
+  Outcome outcome = Outcome::stalled;
+  int iterations = 0;
+  double rotation_rad = 0;  // largest of any node since the start of the step
+  Residual residual;
+};
+
+// Newton's iteration at one load factor; `state` holds the predictor and then the result.
+Attempt iterate(BeamSystem& system, const BeamState& start, BeamState& state, double load_factor,
+                const SteppingOptions& options) {
+  Attempt attempt;
+  BeamIncrement increment;
+  bool small_increment = false;
+  while (true) {
+    attempt.residual = system.assemble(state, load_factor);
+    attempt.rotation_rad = largest_rotation(start, state);
+    const double force_scale = std::max(1.0, largest(state.force_S));
+    if (!attempt.residual.finite() || !all_finite(state)) {
+      attempt.outcome = Outcome::not_finite;
+      return attempt;
+    }
+    const bool converged = small_increment && attempt.residual.largest() <= options.tolerance * force_scale;
+    // Before convergence the bound is wider: an iterate may overshoot and come back.
+    if (attempt.rotation_rad > (converged ? 1.0 : 1.5) * options.largest_rotation_rad) {
+      attempt.outcome = Outcome::turned_too_far;
+      return attempt;
+    }
+    if (converged || attempt.iterations == options.max_newton_iterations) {
+      attempt.outcome = converged ? Outcome::converged : Outcome::stalled;
+      return attempt;
+    }
+    if (!system.newton_increment(increment)) {
+      attempt.outcome = Outcome::singular;
+      return attempt;
+    }
+    ++attempt.iterations;
+    advance(state, increment);
+    // Not the forces: where the rod hardly stretches or shears they follow from the strains with little accuracy, and
+    // the residual bounds them.
+    small_increment = std::max(largest(increment.displacement_B), largest(increment.rotation_S)) <= options.tolerance;
+  }
+}
+
+// The next step is to turn the rod a little less than is allowed, and is at most twice the last.
+double grown(double step, const Attempt& attempt, const SteppingOptions& options) {
+  const double to_limit = 0.8 * options.largest_rotation_rad / std::max(attempt.rotation_rad, 1e-12);
+  return step * std::clamp(to_limit, 0.5, 2.0);
+}
+
+double shrunk(double step, const Attempt& attempt, const SteppingOptions& options) {
+  if (attempt.outcome != Outcome::turned_too_far) return 0.5 * step;
+  return step * std::clamp(0.8 * options.largest_rotation_rad / attempt.rotation_rad, 0.1, 0.5);
+}
+
+std::string failure_message(double load_factor, double step, const Attempt& attempt) {
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "load factor %.6g of 1 reached; a further step of %.2g fails after %d iterations: %s", load_factor,
+                step, attempt.iterations, reason(attempt.outcome));
+  return text;
+}
+
+class Stepping {
+ public:
+  Stepping(const BeamModel& model, const SteppingOptions& options)
+      : options_(options), system_(model), state_(rest_state(model)), step_(options.initial_load_step) {
+    for (const ElementData& element : model.elements) curved_ = curved_ || !element.rest_curvature.isZero(0);
+  }
+
+  SteppingResult run() {
+    // The interpolation of a curved rest shape is not exactly stress-free.
+    if (curved_ && !try_step(0)) return failed(scene::Status::not_converged, 0);
+    while (load_factor_ < 1) {
+      if (tried_ == options_.max_load_steps) return failed(scene::Status::not_converged, step_);
+      // No sliver is left for a last step.
+      const double target = load_factor_ + 1.001 * step_ >= 1 ? 1 : load_factor_ + step_;
+      const double step = target - load_factor_;
+      if (try_step(target)) {
+        step_ = grown(step, last_, options_);
+        continue;
+      }
+      step_ = shrunk(step, last_, options_);
+      if (step_ < options_.smallest_load_step) {
+        const bool not_finite = last_.outcome == Outcome::not_finite;
+        return failed(not_finite ? scene::Status::not_finite : scene::Status::load_step_too_small, step);
+      }
+    }
+    result_.status = scene::Status::converged;
+    result_.clamp_force_B = last_.residual.clamp_force_B;
+    result_.clamp_moment_B = last_.residual.clamp_moment_B;
+    result_.state = std::move(state_);
+    return std::move(result_);
+  }
+
+ private:
+  bool try_step(double target) {
+    ++tried_;
+    BeamState trial = state_;
+    const double step = target - load_factor_;
+    // Secant predictor: the last accepted step goes on.
+    if (last_step_ > 0) advance(trial, last_increment_, step / last_step_);
+    last_ = iterate(system_, state_, trial, target, options_);
+    result_.newton_iterations += last_.iterations;
+    if (last_.outcome != Outcome::converged) return false;
+    if (step > 0) {
+      ++result_.load_steps;
+      last_increment_ = difference(state_, trial);
+      last_step_ = step;
+    }
+    state_ = std::move(trial);
+    load_factor_ = target;
+    return true;
+  }
+
+  SteppingResult failed(scene::Status status, double step) {
+    result_.status = status;
+    result_.message = failure_message(load_factor_, step, last_);
+    return std::move(result_);
+  }
+
+  const SteppingOptions& options_;
+  BeamSystem system_;
+  BeamState state_;
+  bool curved_ = false;
+  double load_factor_ = 0;
+  double step_;
+  int tried_ = 0;
+  Attempt last_;
+  BeamIncrement last_increment_;
+  double last_step_ = 0;
+  SteppingResult result_;
+};
+
+}  // namespace
+
+SteppingResult step_to_full_load(const BeamModel& model, const SteppingOptions& options) {
+  return Stepping(model, options).run();
+}
+
+}  // namespace fem_reference

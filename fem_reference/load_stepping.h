@@ -1,0 +1,40 @@
+// Brings the load from zero to its full value, in steps that adapt to how far the rod turns.
+#pragma once
+
+#include "fem_reference/beam_system.h"
+#include "scene/equilibrium.h"
+
+#include <string>
+
+namespace fem_reference {
+
+struct SteppingOptions {
+  double initial_load_step = 0.25;
+  double smallest_load_step = 1e-6;
+  int max_load_steps = 100'000;  // accepted and rejected
+  int max_newton_iterations = 15;
+  double largest_rotation_rad = 0.6;  // of any node in a step
+  double tolerance = 1e-10;
+};
+
+// state, clamp force and moment (dimensionless, exerted by the wall on the rod) only when the status is `converged`.
+struct SteppingResult {
+  scene::Status status = scene::Status::not_converged;
+  std::string message;
+  BeamState state;
+  Eigen::Vector3d clamp_force_B;
+  Eigen::Vector3d clamp_moment_B;
+  int load_steps = 0;         // accepted
+  int newton_iterations = 0;  // all, those of rejected steps included
+};
+
+// From the rest shape to the full load, along the path of equilibria.
+//
+// A step is accepted when
+//   largest Newton increment of a node <= tolerance (displacements over L, rotations in rad) and
+//   largest residual <= tolerance F, with F = max(1, largest internal force) in EI / L^2, and
+//   no node has turned by more than largest_rotation_rad in the step,
+// the last of which keeps Newton from reaching another branch of equilibria, where the residual vanishes as well.
+SteppingResult step_to_full_load(const BeamModel& model, const SteppingOptions& options);
+
+}  // namespace fem_reference

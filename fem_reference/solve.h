@@ -1,0 +1,46 @@
+// Finite element reference: a geometrically exact (Simo-Reissner) beam on deal.II.
+//
+// Solves every kind of load of the scene format, follower and fixed. Its own discretisation error falls as h^(2 order)
+// at the tip with reduced integration. Formulation: beam_element.h. It stands in for the beam elements of a commercial
+// code and shares no mechanics with the finite arc method.
+#pragma once
+
+#include "scene/equilibrium.h"
+#include "scene/scene.h"
+
+namespace fem_reference {
+
+enum class RodModel {
+  reissner,  // stretches and shears where the section says so
+  kirchhoff  // no stretch and no shear, whatever the section says; exact, not a penalty
+};
+
+struct Options {
+  int elements = 50;              // on the whole rod, shared out over the spans; each span gets at least one
+  int order = 2;                  // of the shape functions: 1, 2 or 3
+  bool full_integration = false;  // order + 1 Gauss points in place of `order`; shows shear locking, else useless
+  RodModel model = RodModel::reissner;
+  bool estimate_error = true;  // a second solve, on about half the elements
+
+  double initial_load_step = 0.25;    // 0 < . <= 1
+  double smallest_load_step = 1e-6;   // below it the solve gives up
+  int max_load_steps = 100'000;       // accepted and rejected
+  int max_newton_iterations = 15;     // in a load step
+  double largest_rotation_rad = 0.6;  // of any node in a load step: keeps to the branch that starts at no load
+  double tolerance = 1e-10;           // on Newton increments (lengths over L, rad) and residuals; load_stepping.h
+};
+
+// The equilibrium that the rod reaches when its loads (tendons included) grow together from zero.
+//
+// stations: all nodes, elements * order + 1 or more. error_estimate_mm: from the two meshes (NaN if the second solve
+// fails, 0 if not asked for). stable: empty. Facts: elements, order, integration, model, load_steps,
+// newton_iterations, of the main solve.
+//
+// Status load_step_too_small: the load step fell below smallest_load_step. not_finite: the same, and the last attempt
+// met a value that is not finite. not_converged: max_load_steps used up; or an element turns by pi or more from end to
+// end, or a section is compressed to nothing (1 + stretch <= 0), so that the result is no rod. unsupported: full
+// integration of a rod that does not stretch or shear, which locks to a straight line.
+// Throws scene::SceneError if an option is out of its range. The scene must be valid.
+scene::Equilibrium solve(const scene::Scene& scene, const Options& options = {});
+
+}  // namespace fem_reference
