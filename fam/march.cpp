@@ -75,9 +75,8 @@ void March::march(Strain&& strain_of) {
   for (auto span = spans_.rbegin(); span != spans_.rend(); ++span) {
     wrench.force_N += span->load_S.force_N;
     wrench.moment_Nmm += span->load_S.moment_Nmm;
-    for (int k = span->arc_count - 1; k >= 0; --k) {
-      strain_of(span->constants, wrench, arcs_[static_cast<std::size_t>(span->first_arc + k)]);
-    }
+    Arc* const first = arcs_.data() + span->first_arc;
+    for (Arc* arc = first + span->arc_count; arc-- != first;) strain_of(span->constants, wrench, *arc);
   }
   base_wrench_ = {wrench.force_N + spans_.front().tendon_S.force_N,
                   wrench.moment_Nmm + spans_.front().tendon_S.moment_Nmm};

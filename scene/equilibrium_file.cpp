@@ -43,7 +43,9 @@ std::string to_json(const Equilibrium& result, const std::string& method, double
   }
   json["time_us"] = time_us;
   json["model"] = Json::object();
-  for (const auto& [key, value] : result.model) std::visit([&](const auto& v) { json["model"][key] = v; }, value);
+  for (const Fact& fact : result.model) {
+    std::visit([&](const auto& value) { json["model"][fact.first] = value; }, fact.second);
+  }
   json["stable"] = result.stable ? Json(*result.stable) : Json(nullptr);
   return json.dump(2) + "\n";
 }

@@ -117,8 +117,8 @@ class Node {
     return nodes;
   }
 
-  double number() const {
-    if (!json_.is_number()) refuse("must be a number");
+  double number(const std::string& rule = "must be a number") const {
+    if (!json_.is_number()) refuse(rule);
     return json_.get<double>();
   }
 
@@ -193,7 +193,8 @@ Section read_section(const Node& node) {
 
 double read_place(const Node& node, double length) {
   const Node at = node.at("at");
-  return at.is_tip() ? length : at.number();
+  if (at.is_tip()) return length;
+  return at.number("must be a number or \"tip\"");
 }
 
 Load read_load(const Node& node, double length) {
@@ -265,7 +266,7 @@ Scene read_scene(std::istream& input, const std::string& source) {
     }
   }
   const Json json = parse(text, source);
-  const Scene scene = read(Node(json, "", source));
+  Scene scene = read(Node(json, "", source));
   validate(scene, source);
   return scene;
 }

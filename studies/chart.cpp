@@ -79,8 +79,8 @@ void Panel::frame(const std::string& title) {
 }
 
 void Panel::curve(const std::vector<Point>& data, const Stroke& stroke) {
-  std::vector<Point> points;
-  for (const Point& p : data) points.push_back(at(p));
+  std::vector<Point> points(data.size());
+  std::transform(data.begin(), data.end(), points.begin(), [this](const Point& p) { return at(p); });
   svg_.polyline(points, stroke);
 }
 

@@ -30,11 +30,13 @@ Centreline centreline(const scene::Equilibrium& result, const std::string& name,
   return line;
 }
 
-std::string shape_chart(const std::vector<Centreline>& lines, const std::vector<View>& views,
-                        const std::string& title) {
-  constexpr double size = 380, left = 70, top = 56, gap = 110;
+std::string shape_chart(const std::vector<Centreline>& lines, const std::vector<View>& views, const std::string& title,
+                        const std::string& subtitle) {
+  const double size = views.size() == 1 ? 520 : 360;
+  constexpr double left = 70, top = 66, gap = 110;
   Svg svg(left + static_cast<double>(views.size()) * (size + gap) - 20, top + size + 60);
   svg.text({left - 44, 24}, title, Anchor::start, 15);
+  svg.text({left - 44, 44}, subtitle, Anchor::start, 12, colour::grey);
   for (std::size_t v = 0; v < views.size(); ++v) {
     Axis x = axis_over(lines, views[v].right);
     Axis y = axis_over(lines, views[v].up);

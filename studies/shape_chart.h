@@ -24,7 +24,8 @@ struct View {
   int right, up;
 };
 
-// One panel a view, beside each other; a planar set needs one.
-std::string shape_chart(const std::vector<Centreline>& lines, const std::vector<View>& views, const std::string& title);
+// One panel a view, beside each other; a planar set needs one, larger.
+std::string shape_chart(const std::vector<Centreline>& lines, const std::vector<View>& views, const std::string& title,
+                        const std::string& subtitle = "");
 
 }  // namespace studies

@@ -1,0 +1,55 @@
+// fam-studies: everything that compares. `fam-studies --help` and README.md say more.
+#include "apps/solve_command.h"
+#include "studies/fam_method.h"
+#include "studies/fem_method.h"
+#include "studies/study1.h"
+
+namespace {
+
+std::unique_ptr<studies::Method> make_method(const apps::SolveArguments& arguments) {
+  if (arguments.method == "fam") return studies::fam_method(arguments.fam);
+  fem_reference::Options options;
+  options.elements = arguments.elements;
+  options.order = arguments.order;
+  if (arguments.fam.model == fam::RodModel::kirchhoff) options.model = fem_reference::RodModel::kirchhoff;
+  return studies::fem_method(options);
+}
+
+void add_method_options(CLI::App* solve, apps::SolveArguments& arguments) {
+  solve->add_option("--method", arguments.method, "fam or fem")->check(CLI::IsMember({"fam", "fem"}));
+  solve->add_option("--elements", arguments.elements, "fem: number of elements (default: 50)")
+      ->check(CLI::Range(1, 100'000));
+  solve->add_option("--order", arguments.order, "fem: order of the elements (default: 2)")->check(CLI::Range(1, 3));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Studies of the finite arc method"};
+  app.require_subcommand(1);
+  apps::SolveArguments arguments;
+  CLI::App* solve = apps::add_solve_command(app, arguments);
+  add_method_options(solve, arguments);
+
+  studies::StudyOptions options;
+  options.cases = STUDY_CASES_DIR;
+  const std::vector<std::pair<std::string, std::function<void(const studies::StudyOptions&)>>> studies = {
+      {"study1", studies::study1}};
+  for (const auto& [name, study] : studies) app.add_subcommand(name, "Run this study and write its results");
+  app.add_subcommand("all", "Run every study");
+  for (CLI::App* command : app.get_subcommands({})) {
+    if (command == solve) continue;
+    command->add_option("--output", options.output, "Folder to write to (default: results)");
+    command->add_option("--cases", options.cases, "Folder of the scene files (default: the project's studies/cases)");
+    command->add_flag("--quick", options.quick, "The smallest setting that still runs every line");
+  }
+
+  return apps::run(app, argc, argv, [&] {
+    if (solve->parsed()) return apps::run_solve(arguments, make_method);
+    for (const auto& [name, study] : studies) {
+      if (app.got_subcommand(name) || app.got_subcommand("all")) study(options);
+    }
+    studies::write_index(options.output);
+    return apps::exit_solved;
+  });
+}

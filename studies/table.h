@@ -1,0 +1,29 @@
+// A table of text cells, as CSV (the result) and as Markdown (for the reader).
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace studies {
+
+class Table {
+ public:
+  explicit Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
+
+  // One cell a column.
+  void add(std::vector<std::string> cells);
+
+  // Head lines start with "# ".
+  std::string csv(const std::vector<std::string>& head = {}) const;
+  std::string markdown() const;
+
+ private:
+  std::vector<std::string> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+// Numbers as text. Fixed digits hide the last bits, which differ from machine to machine; never "-0.000".
+std::string fixed(double value, int digits);
+std::string scientific(double value, int digits);  // "1.2e-07"; "0" for zero
+
+}  // namespace studies
