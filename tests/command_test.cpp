@@ -1,0 +1,158 @@
+// The commands as a user runs them: output, exit status, nothing half-written.
+#include "support.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct Outcome {
+  int exit_status;
+  std::string out, err;
+};
+
+fs::path scratch() {
+  static const fs::path folder = [] {
+    fs::path path = fs::temp_directory_path() / ("fam_command_test_" + std::to_string(getpid()));
+    fs::create_directories(path);
+    return path;
+  }();
+  return folder;
+}
+
+std::string contents(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Outcome run(const std::string& command, const std::string& arguments, const std::string& input = "") {
+  std::ofstream(scratch() / "in") << input;
+  const std::string line = command + " " + arguments + " <" + (scratch() / "in").string() + " >" +
+                           (scratch() / "out").string() + " 2>" + (scratch() / "err").string();
+  const int status = std::system(line.c_str());
+  return {WEXITSTATUS(status), contents(scratch() / "out"), contents(scratch() / "err")};
+}
+
+std::string case_file(const std::string& name) {
+  return std::string(STUDY_CASES_DIR) + "/" + name + ".json";
+}
+
+const std::string fam = FAM_COMMAND;
+const std::string fam_studies = FAM_STUDIES_COMMAND;
+
+// Every key of the contract, with both methods.
+TEST(Command, SolveJson) {
+  for (const auto& [command, options] : {std::pair{fam, ""}, std::pair{fam_studies, " --method fem"}}) {
+    const Outcome outcome = run(command, "solve " + case_file("S4_follower") + " --format json" + options);
+    ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+    const json result = json::parse(outcome.out);
+    EXPECT_EQ(result["status"], "converged");
+    EXPECT_EQ(result["method"], command == fam ? "fam" : "fem");
+    const Eigen::Vector3d exact_mm = support::study1_tip_mm("S4", "follower", "reissner");
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(result["tip"]["position_mm"][i].get<double>(), exact_mm[i], 0.04);
+    EXPECT_EQ(result["tip"]["rotation"].size(), 3u);
+    EXPECT_GT(result["tip"]["angle_rad"].get<double>(), 0.4);
+    EXPECT_EQ(result["base"]["force_N"].size(), 3u);
+    EXPECT_EQ(result["base"]["moment_Nmm"].size(), 3u);
+    EXPECT_GE(result["centreline"].size(), 41u);
+    EXPECT_EQ(result["centreline"].back()["s_mm"], 40);
+    EXPECT_EQ(result["centreline"].back()["position_mm"], result["tip"]["position_mm"]);
+    EXPECT_GT(result["error_estimate_mm"].get<double>(), 0);
+    EXPECT_LT(result["error_estimate_mm"].get<double>(), 0.04);
+    EXPECT_GT(result["time_us"].get<double>(), 0);
+    EXPECT_TRUE(result["stable"].is_null());
+    for (const char* key : command == fam ? std::array{"law", "arcs", "planar", "torsion", "shear", "solver", "reason"}
+                                          : std::array{"elements", "order", "load_steps", "newton_iterations",
+                                                       "elements", "elements", "elements"}) {
+      EXPECT_TRUE(result["model"].contains(key)) << key;
+    }
+  }
+}
+
+TEST(Command, CheckValueOfTheoryThroughTheCommand) {
+  const std::string scene =
+      R"({"rod":{"sections":[{"length_mm":40,"stiffness":{"bending_Nmm2":1500,"torsion_Nmm2":1000}}]},
+    "loads":[{"kind":"force","at":"tip","frame":"follower","value_N":[-0.5,0.8,0.6]},
+             {"kind":"moment","at":"tip","frame":"follower","value_Nmm":[10,20,-15]}]})";
+  const Outcome outcome = run(fam, "solve - --law fourth_order --arcs 128 --format json", scene);
+  ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+  const json tip = json::parse(outcome.out)["tip"]["position_mm"];
+  EXPECT_NEAR(tip[0].get<double>(), 39.801266166031, 1e-8);
+  EXPECT_NEAR(tip[1].get<double>(), 3.068161908374, 1e-8);
+  EXPECT_NEAR(tip[2].get<double>(), 0.175073477554, 1e-8);
+}
+
+TEST(Command, TextCsvAndPicture) {
+  const Outcome text = run(fam, "solve " + case_file("P4_follower"));
+  EXPECT_EQ(text.exit_status, 0);
+  EXPECT_NE(text.out.find("tip position, mm"), std::string::npos);
+  EXPECT_NE(text.out.find("reason"), std::string::npos);
+
+  const fs::path svg = scratch() / "shape.svg";
+  const Outcome csv = run(fam, "solve " + case_file("P4_follower") + " --format csv --svg " + svg.string());
+  EXPECT_EQ(csv.out.rfind("s_mm,x_mm,y_mm,z_mm,R11,", 0), 0u);
+  EXPECT_GE(std::count(csv.out.begin(), csv.out.end(), '\n'), 42);
+  EXPECT_EQ(contents(svg).rfind("<svg ", 0), 0u);
+}
+
+TEST(Command, UnsupportedIsExitStatusOneAndNoTip) {
+  const Outcome text = run(fam, "solve " + case_file("S4_fixed"));
+  EXPECT_EQ(text.exit_status, 1);
+  EXPECT_EQ(text.out, "");
+  EXPECT_NE(text.err.find("unsupported: loads[0]"), std::string::npos) << text.err;
+
+  const fs::path svg = scratch() / "never.svg";
+  const Outcome outcome = run(fam, "solve " + case_file("S4_fixed") + " --format json --svg " + svg.string());
+  EXPECT_EQ(outcome.exit_status, 1);
+  const json result = json::parse(outcome.out);
+  EXPECT_EQ(result["status"], "unsupported");
+  EXPECT_TRUE(result["tip"].is_null());
+  EXPECT_TRUE(result["centreline"].empty());
+  EXPECT_FALSE(fs::exists(svg));
+}
+
+TEST(Command, WrongInputIsExitStatusTwoOneLineNothingPrinted) {
+  const std::string rod = R"({"rod":{"sections":[{"length_mm":-4,"stiffness":{"bending_Nmm2":1,"torsion_Nmm2":1}}]}})";
+  for (const std::string& command : {fam, fam_studies}) {
+    const fs::path svg = scratch() / "never.svg";
+    const Outcome outcome = run(command, "solve - --format json --svg " + svg.string(), rod);
+    EXPECT_EQ(outcome.exit_status, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.err, "(standard input): rod.sections[0].length_mm = -4: must be > 0\n");
+    EXPECT_FALSE(fs::exists(svg));
+    EXPECT_EQ(run(command, "solve no_such_file.json").exit_status, 2);
+  }
+}
+
+TEST(Command, WrongUsageIsExitStatusTwo) {
+  const std::string scene = case_file("P1_follower");
+  for (const std::string& arguments :
+       {std::string(""), std::string("solve"), "solve " + scene + " --arcs 0", "solve " + scene + " --arcs 1000001",
+        "solve " + scene + " --tolerance-mm 0", "solve " + scene + " --tolerance-mm nan",
+        "solve " + scene + " --arcs 3 --tolerance-mm 1", "solve " + scene + " --law euler",
+        "solve " + scene + " --model cosserat", "solve " + scene + " --format xml", "solve " + scene + " --colour"}) {
+    const Outcome outcome = run(fam, arguments);
+    EXPECT_EQ(outcome.exit_status, 2) << arguments;
+    EXPECT_EQ(outcome.out, "") << arguments;
+  }
+  EXPECT_EQ(run(fam, "--help").exit_status, 0);
+}
+
+TEST(Command, UnwritablePictureIsExitStatusOne) {
+  const Outcome outcome = run(fam, "solve " + case_file("P1_follower") + " --svg /dev/null/shape.svg");
+  EXPECT_EQ(outcome.exit_status, 1);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_NE(outcome.err.find("cannot be written"), std::string::npos);
+}
+
+}  // namespace

@@ -1,0 +1,99 @@
+// The 16 tip loads of Study I, follower and fixed, against an independent solution (tests/data/study1_tips.csv).
+#include "fem_reference/solve.h"
+#include "support.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double length_mm = 40;
+constexpr double gate_50 = 1e-5;   // tip error over L with 50 quadratic elements; measured 1.2e-7 at most
+constexpr double gate_200 = 1e-7;  // with 200; measured 4.8e-10 at most
+
+struct Case {
+  std::string name, frame;
+
+  scene::Scene scene() const { return support::study1_scene(name, frame); }
+  Vector3d tip_mm() const { return support::study1_tip_mm(name, frame, "reissner"); }
+  std::string label() const { return name + " " + frame; }
+};
+
+std::vector<Case> all_cases() {
+  std::vector<Case> cases;
+  for (const std::string frame : {"follower", "fixed"}) {
+    for (const std::string& name : support::study1_cases()) cases.push_back({name, frame});
+  }
+  return cases;
+}
+
+double tip_error(const Case& c, int elements, double stiffness_factor = 1) {
+  fem_reference::Options options;
+  options.elements = elements;
+  options.estimate_error = false;
+  const scene::Equilibrium found = fem_reference::solve(support::stiffer(c.scene(), stiffness_factor), options);
+  EXPECT_TRUE(found.converged()) << c.label() << ": " << found.message;
+  if (!found.converged()) return 1;
+  return (found.tip().position_B_mm - c.tip_mm()).norm() / length_mm;
+}
+
+TEST(FemStudy1, EveryLoadConvergesWithinTheGates) {
+  for (const Case& c : all_cases()) {
+    EXPECT_LT(tip_error(c, 50), gate_50) << c.label();
+    EXPECT_LT(tip_error(c, 200), gate_200) << c.label();
+  }
+}
+
+TEST(FemStudy1, AStifferRodMissesTheGates) {
+  for (const Case& c : all_cases()) EXPECT_GT(tip_error(c, 50, 1.05), 100 * gate_50) << c.label();
+}
+
+TEST(FemStudy1, BaseCarriesTheFixedLoads) {
+  for (const Case& c : all_cases()) {
+    if (c.frame != "fixed") continue;
+    const scene::Equilibrium found = fem_reference::solve(c.scene());
+    ASSERT_TRUE(found.converged()) << found.message;
+    Vector3d force_N = Vector3d::Zero();
+    Vector3d moment = Vector3d::Zero();
+    for (const scene::Load& load : c.scene().loads) {
+      if (const auto* force = std::get_if<scene::Force>(&load)) force_N += force->value_N;
+      if (const auto* tip_moment = std::get_if<scene::Moment>(&load)) moment += tip_moment->value_Nmm;
+    }
+    moment += found.tip().position_B_mm.cross(force_N);
+    EXPECT_LT((found.base_force_B_N - force_N).norm(), 1e-10) << c.label();
+    // The element's moment balance holds in the weak sense: as exact as the tip's place.
+    EXPECT_LT((found.base_moment_B_Nmm - moment).norm(), 1e-4) << c.label();
+  }
+}
+
+TEST(FemStudy1, ErrorEstimateIsAboveTheErrorAndNotFarAbove) {
+  for (const Case& c : all_cases()) {
+    fem_reference::Options options;
+    options.elements = 20;
+    const scene::Equilibrium found = fem_reference::solve(c.scene(), options);
+    ASSERT_TRUE(found.converged()) << found.message;
+    const double error_mm = (found.tip().position_B_mm - c.tip_mm()).norm();
+    EXPECT_GT(found.error_estimate_mm, error_mm) << c.label();
+    EXPECT_LT(found.error_estimate_mm, 4 * error_mm) << c.label();
+  }
+}
+
+// The stiff option: no shear, no stretch.
+TEST(FemStudy1, KirchhoffRod) {
+  fem_reference::Options options;
+  options.model = fem_reference::RodModel::kirchhoff;
+  options.estimate_error = false;
+  for (const Case& c : all_cases()) {
+    const Vector3d exact_mm = support::study1_tip_mm(c.name, c.frame, "kirchhoff");
+    const auto error = [&](double stiffness_factor) {
+      const auto found = fem_reference::solve(support::stiffer(c.scene(), stiffness_factor), options);
+      return (found.tip().position_B_mm - exact_mm).norm() / length_mm;
+    };
+    EXPECT_LT(error(1), gate_50) << c.label();
+    EXPECT_GT(error(1.05), 100 * gate_50) << c.label();
+  }
+}
+
+}  // namespace
