@@ -1,11 +1,14 @@
 // The committed results: what a study writes now is what stands in results/, but for the last printed digit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <regex>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -26,20 +29,40 @@ double last_place(const std::string& number) {
   return std::pow(10, power - decimals);
 }
 
-// Where two texts differ by more than one unit in the last place of a number (numbers below 1e-9 are round-off and
-// all the same), as a line of both; empty where they do not.
-std::string first_difference(const std::string& a, const std::string& b) {
-  static const std::regex number(R"(-?\d+(\.\d+)?([eE][-+]?\d+)?)");
-  std::sregex_iterator in_a(a.begin(), a.end(), number), in_b(b.begin(), b.end(), number);
-  const std::sregex_iterator end;
-  for (; in_a != end && in_b != end; ++in_a, ++in_b) {
-    const std::string text_a = in_a->str(), text_b = in_b->str();
-    if (in_a->prefix() != in_b->prefix()) return in_a->prefix().str().append(" | ").append(in_b->prefix().str());
-    const double value_a = std::stod(text_a), value_b = std::stod(text_b);
-    const double allowed = 1.01 * std::max({last_place(text_a), last_place(text_b), 1e-9});
-    if (std::abs(value_a - value_b) > allowed) return text_a + " | " + text_b + " after " + in_a->prefix().str();
+struct Token {
+  std::string text;  // a number, or one character
+  bool is_number;
+};
+
+std::vector<Token> tokens(const std::string& text) {
+  std::vector<Token> list;
+  for (const char* at = text.c_str(); *at != 0;) {
+    char* end = nullptr;
+    const bool sign = *at == '-' && std::isdigit(static_cast<unsigned char>(at[1]));
+    if (sign || std::isdigit(static_cast<unsigned char>(*at))) std::strtod(at, &end);
+    const bool is_number = end != nullptr && at[1] != 'x';
+    if (!is_number) end = const_cast<char*>(at) + 1;
+    list.push_back({std::string(at, static_cast<const char*>(end)), is_number});
+    at = end;
   }
-  return in_a == end && in_b == end ? "" : "one of the two is longer";
+  return list;
+}
+
+// Where two texts differ by more than one unit in the last place of a number (numbers below 1e-9 are round-off and
+// all the same), as that place in both; empty where they do not.
+std::string first_difference(const std::string& a, const std::string& b) {
+  const std::vector<Token> in_a = tokens(a), in_b = tokens(b);
+  for (std::size_t i = 0; i < std::min(in_a.size(), in_b.size()); ++i) {
+    const std::string &of_a = in_a[i].text, &of_b = in_b[i].text;
+    if (of_a == of_b) continue;
+    const bool numbers = in_a[i].is_number && in_b[i].is_number;
+    const double allowed = 1.01 * std::max({last_place(of_a), last_place(of_b), 1e-9});
+    if (numbers && std::abs(std::stod(of_a) - std::stod(of_b)) <= allowed) continue;
+    std::string place;
+    for (std::size_t k = i > 60 ? i - 60 : 0; k < i; ++k) place += in_a[k].text;
+    return place.append(" >>> ").append(of_a).append(" | ").append(of_b);
+  }
+  return in_a.size() == in_b.size() ? "" : "one of the two is longer";
 }
 
 TEST(Results, ComparisonSeesAChangedDigit) {
