@@ -1,5 +1,6 @@
 // fam-studies: everything that compares. `fam-studies --help` and README.md say more.
 #include "apps/solve_command.h"
+#include "studies/exact_method.h"
 #include "studies/fam_method.h"
 #include "studies/fem_method.h"
 #include "studies/study1.h"
@@ -8,15 +9,21 @@ namespace {
 
 std::unique_ptr<studies::Method> make_method(const apps::SolveArguments& arguments) {
   if (arguments.method == "fam") return studies::fam_method(arguments.fam);
+  const bool kirchhoff = arguments.fam.model == fam::RodModel::kirchhoff;
+  if (arguments.method == "exact") {
+    exact_reference::Options options;
+    if (kirchhoff) options.model = exact_reference::RodModel::kirchhoff;
+    return studies::exact_method(options);
+  }
   fem_reference::Options options;
   options.elements = arguments.elements;
   options.order = arguments.order;
-  if (arguments.fam.model == fam::RodModel::kirchhoff) options.model = fem_reference::RodModel::kirchhoff;
+  if (kirchhoff) options.model = fem_reference::RodModel::kirchhoff;
   return studies::fem_method(options);
 }
 
 void add_method_options(CLI::App* solve, apps::SolveArguments& arguments) {
-  solve->add_option("--method", arguments.method, "fam or fem")->check(CLI::IsMember({"fam", "fem"}));
+  solve->add_option("--method", arguments.method, "fam, fem or exact")->check(CLI::IsMember({"fam", "fem", "exact"}));
   solve->add_option("--elements", arguments.elements, "fem: number of elements (default: 50)")
       ->check(CLI::Range(1, 100'000));
   solve->add_option("--order", arguments.order, "fem: order of the elements (default: 2)")->check(CLI::Range(1, 3));

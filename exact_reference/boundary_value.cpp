@@ -1,0 +1,196 @@
+#include "exact_reference/boundary_value.h"
+
+#include "exact_reference/shooting.h"
+#include "exact_reference/stability.h"
+#include "exact_reference/stations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace exact_reference {
+namespace {
+
+constexpr int initial_intervals = 16;
+constexpr int max_intervals = 400'000;
+constexpr double continuation_local_error = 1e-6;
+constexpr double largest_miss_rad = 0.1;  // corrected against predicted rotation
+constexpr double largest_turn_rad = 0.8;  // of any section in a load step
+constexpr double first_turn_rad = 0.1;
+constexpr int most_load_steps = 3000;
+constexpr double smallest_step = 1e-6;  // of the load reached or of the first step, whichever is larger
+
+// Largest rotation between two sets of node states; a small quaternion change is half a rotation.
+template <class States>
+double largest_turn(const States& a, const NodeStates& b) {
+  double turn = 0;
+  for (std::size_t k = 0; k < b.size(); ++k) turn = std::max(turn, 2 * (a[k] - b[k]).template head<4>().norm());
+  return turn;
+}
+
+struct Path {
+  Shooting shooting;
+  NodeStates y;
+  double load = 0;
+  int steps = 0;
+  int newton_iterations = 0;
+};
+
+// Predicts, corrects, judges one step; leaves the path as it was if it is refused. Returns the miss, infinite if
+// refused.
+double try_step(Path& path, const std::vector<Core>& tangent, double step) {
+  NodeStates predicted = path.y;
+  for (std::size_t k = 0; k < predicted.size(); ++k) predicted[k].head<core_size>() += step * tangent[k];
+  if (largest_turn(predicted, path.y) > 2 * largest_turn_rad) return HUGE_VAL;
+  NodeStates corrected = predicted;
+  const Convergence newton = path.shooting.newton(corrected, path.load + step, 1e-8, 8);
+  path.newton_iterations += newton.iterations;
+  const double miss = largest_turn(corrected, predicted);
+  const bool jumped = !(miss <= largest_miss_rad) || !(largest_turn(corrected, path.y) <= largest_turn_rad);
+  if (!newton.converged || jumped) return HUGE_VAL;
+  path.y = std::move(corrected);
+  return miss;
+}
+
+// Refines until each local error is below the tolerance; Newton's iteration after each refinement.
+bool adapt(Path& path, double local_error, double newton_tolerance) {
+  constexpr int most_rounds = 20;
+  for (int round = 0; round < most_rounds; ++round) {
+    path.shooting.integrate_positions(path.y, path.load);
+    if (!path.shooting.refine(path.y, path.load, local_error, max_intervals)) return true;
+    const Convergence newton = path.shooting.newton(path.y, path.load, newton_tolerance, 12);
+    path.newton_iterations += newton.iterations;
+    if (!newton.converged) return false;
+  }
+  return true;
+}
+
+bool follow_load(Path& path) {
+  double first_step = 0;
+  double step = 1;
+  while (path.load < 1) {
+    const std::vector<Core> tangent = path.shooting.tangent(path.y, path.load);
+    if (first_step == 0) {
+      double slope = 0;
+      for (const Core& t : tangent) slope = std::max(slope, 2 * t.head<4>().norm());
+      step = first_step = std::min(1.0, first_turn_rad / std::max(slope, first_turn_rad));
+    }
+    double miss = HUGE_VAL;
+    for (;;) {
+      const bool to_the_end = path.load + 1.01 * step >= 1;
+      const double trial = to_the_end ? 1 - path.load : step;
+      miss = try_step(path, tangent, trial);
+      if (miss < HUGE_VAL) {
+        path.load = to_the_end ? 1 : path.load + trial;
+        step = trial;
+        break;
+      }
+      step = trial / 2;
+      if (step < smallest_step * std::max(path.load, first_step)) return false;
+    }
+    if (++path.steps > most_load_steps) return false;
+    if (!adapt(path, continuation_local_error, 1e-8)) return false;
+    step *= std::clamp(std::sqrt(largest_miss_rad / 4 / std::max(miss, 1e-6)), 0.5, 3.0);
+  }
+  return true;
+}
+
+// Tip error over L, estimated by the change that halving the mesh makes; keeps the finer mesh. Negative: not converged.
+double solve_accurately(Path& path, double tolerance) {
+  const double local_tolerance = std::max(tolerance / 20, 1e-14);
+  const auto converge = [&] {
+    const Convergence newton = path.shooting.newton(path.y, 1, 1e-15, 20);
+    path.newton_iterations += newton.iterations;
+    path.shooting.integrate_positions(path.y, 1);
+    return newton.converged;
+  };
+  if (!converge() || !adapt(path, local_tolerance, 1e-15)) return -1;
+  const double roundoff = 4e-16 * std::sqrt(static_cast<double>(path.shooting.mesh().size()));
+  double change = HUGE_VAL;
+  for (int halvings = 0; halvings < 3; ++halvings) {
+    const Eigen::Vector3d coarse_tip = path.y.back().tail<3>();
+    path.shooting.halve(path.y, 1);
+    if (!converge()) return -1;
+    const double last = change;
+    change = (path.y.back().tail<3>() - coarse_tip).norm();
+    if (change <= tolerance || change > last / 2) break;
+  }
+  return change + roundoff;
+}
+
+double turning_rad(const Path& path) {
+  double turning = 0;
+  for (std::size_t i = 0; i < path.shooting.mesh().size(); ++i) {
+    const State y = path.shooting.start_state(path.y, 1, i);
+    const Eigen::Vector3d moment_S = rotation_of(y.head<4>()).transpose() * y.segment<3>(7);
+    turning += path.shooting.mesh()[i].length * path.shooting.equations(i, 1).curvature_S(moment_S).norm();
+  }
+  return turning;
+}
+
+// Each station by a step of its own from the node before it, so that it is as accurate as the nodes.
+std::vector<scene::Station> stations_of(const ScaledRod& rod, const Path& path) {
+  const Mesh& mesh = path.shooting.mesh();
+  std::vector<scene::Station> stations;
+  std::size_t i = 0;
+  for (const double place : station_places(rod, equal_parts_for(turning_rad(path)))) {
+    while (i + 1 < mesh.size() && place >= mesh[i + 1].start) ++i;
+    State y = path.shooting.start_state(path.y, 1, i);
+    if (place >= rod.spans.back().end) {
+      y = path.y.back();
+    } else if (place > mesh[i].start) {
+      y = runge_kutta_step(path.shooting.equations(i, 1), y, place - mesh[i].start);
+    }
+    stations.push_back(station_of(rod, place, y.head<4>(), y.tail<3>()));
+  }
+  return stations;
+}
+
+void set_stability(scene::Equilibrium& result, const ScaledRod& rod, const Path& path) {
+  if (rod.has_follower_load() || rod.has_fixed_moment()) return;  // not conservative: energy does not decide
+  const std::optional<int> falling = falling_directions(path.shooting, path.y);
+  if (!falling) return;
+  result.stable = *falling == 0;
+  result.model.emplace_back("falling_directions", *falling);
+}
+
+std::string text(const char* format, double value) {
+  char buffer[200];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+}  // namespace
+
+scene::Equilibrium solve_boundary_value(const ScaledRod& rod, double tolerance) {
+  scene::Equilibrium result;
+  Path path{Shooting(rod, initial_intervals), {}};
+  path.y = path.shooting.unloaded();
+  if (!adapt(path, continuation_local_error, 1e-8) || !follow_load(path)) {
+    result.status = scene::Status::load_step_too_small;
+    result.message =
+        text("no equilibrium found next to the one at %.6g of the load: a fold, or too large a load", path.load);
+    return result;
+  }
+  const double error = solve_accurately(path, tolerance);
+  const double worst_error = std::max(1e-6, tolerance);  // beyond it the answer is not worth its name
+  if (!(error >= 0 && error <= worst_error)) {
+    result.status = scene::Status::not_converged;
+    result.message = text("the tip still moves by %.3g of the length when the mesh is halved", std::abs(error));
+    if (error < 0) result.message = "Newton's iteration does not converge on the fine mesh";
+    return result;
+  }
+  result.status = scene::Status::converged;
+  result.stations = stations_of(rod, path);
+  result.tip_angle_rad = scene::total_angle_rad(result.stations);
+  set_base_wrench(result, rod, path.y[0].segment<3>(4), path.y[0].segment<3>(7));
+  result.error_estimate_mm = error * rod.length_mm;
+  result.model.emplace_back("intervals", static_cast<int>(path.shooting.mesh().size()));
+  result.model.emplace_back("unknowns", core_size * static_cast<int>(path.y.size()));
+  result.model.emplace_back("load_steps", path.steps);
+  result.model.emplace_back("newton_iterations", path.newton_iterations);
+  set_stability(result, rod, path);
+  return result;
+}
+
+}  // namespace exact_reference

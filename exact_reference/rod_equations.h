@@ -1,0 +1,65 @@
+// The rod's differential equations, dimensionless (scaled_rod.h), Kirchhoff and Reissner alike, in two forms:
+// with the wrench in the base frame (boundary_value) and in the section frame (initial_value).
+//
+//   p' = R v      q' = 1/2 q (0, u)      N' = -f_B - R f_S                M' = -(R v) x N         base frame
+//                                        n' = -u x n - f                  m' = -u x m - v x n     section frame
+//   u = u0 + K_u^-1 (R^T M + m_tendon)   v = e_x + K_v^-1 (R^T N + n_tendon)
+//
+// N, M: what the distal part, tendons included, exerts on the proximal one. The rod's own share is that plus the
+// tendon's compression, which is why a tendon acts as a shift of the rest strain and nothing jumps where it ends. q is
+// a unit quaternion (w, x, y, z) taken as four plain unknowns: q' keeps |q|, so that one condition |q| = 1 at the clamp
+// is enough, and full turns need no care.
+#pragma once
+
+#include "exact_reference/scaled_rod.h"
+
+namespace exact_reference {
+
+// Base-frame state: q 0-3, N 4-6, M 7-9, p 10-12. Nothing depends on p, so the unknowns of the solver are the first
+// ten.
+constexpr int core_size = 10;
+constexpr int state_size = 13;
+using State = Eigen::Matrix<double, state_size, 1>;
+using Core = Eigen::Matrix<double, core_size, 1>;
+using CoreMatrix = Eigen::Matrix<double, core_size, core_size>;
+
+// Rotation of the quaternion, in the form that is quadratic in q (|q|^2 times a rotation).
+Eigen::Matrix3d rotation_of(const Eigen::Vector4d& q);
+
+// A span under load_factor times its loads (tendons are loads; the rest curvature is not).
+class RodEquations {
+ public:
+  RodEquations(const ScaledSpan& span, double load_factor);
+
+  State derivative(const State& y) const;
+  CoreMatrix jacobian(const State& y) const;  // of the first ten derivatives by the first ten unknowns
+
+  // Strains from the cut's wrench in the section frame.
+  Eigen::Vector3d curvature_S(const Eigen::Vector3d& moment_S) const {
+    return rest_curvature_ + bending_compliance_.cwiseProduct(moment_S);
+  }
+  Eigen::Vector3d stretch_S(const Eigen::Vector3d& force_S) const {
+    return rest_stretch_ + shear_compliance_.cwiseProduct(force_S);
+  }
+  // n and m of the section frame; follower densities only.
+  void wrench_derivative_S(const Eigen::Vector3d& force_S, const Eigen::Vector3d& moment_S, Eigen::Vector3d& d_force_S,
+                           Eigen::Vector3d& d_moment_S) const;
+
+  // State just beyond the point loads at the span's end, and its derivative by the state before them.
+  State beyond_point_loads(const State& y) const;
+  CoreMatrix beyond_point_loads_jacobian(const State& y) const;
+
+ private:
+  Eigen::Vector3d bending_compliance_, shear_compliance_;
+  Eigen::Vector3d rest_curvature_, rest_stretch_;  // tendons included
+  Eigen::Vector3d follower_density_, fixed_density_;
+  scene::Wrench follower_load_, fixed_load_;
+};
+
+// q' = 1/2 q (0, u).
+Eigen::Vector4d quaternion_derivative(const Eigen::Vector4d& q, const Eigen::Vector3d& curvature_S);
+
+// 4x3 matrix T with dq = T dtheta for a small rotation dtheta in the base frame; T^T T = I/4.
+Eigen::Matrix<double, 4, 3> quaternion_tangent(const Eigen::Vector4d& q);
+
+}  // namespace exact_reference

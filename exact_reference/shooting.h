@@ -1,0 +1,78 @@
+// Multiple shooting: the states at all mesh nodes are unknown at once, so that nothing is carried over a long stretch
+// and no growth of exp(sqrt(F L^2/EI)) can spoil the answer. Newton's matrix is banded and solved by SUNDIALS' LU with
+// partial pivoting; cost linear in the number of intervals.
+#pragma once
+
+#include "exact_reference/runge_kutta.h"
+
+#include <memory>
+#include <vector>
+
+namespace exact_reference {
+
+// One Runge-Kutta step long.
+struct Interval {
+  int span = 0;
+  double start = 0;
+  double length = 0;
+  bool ends_span = false;
+};
+
+using Mesh = std::vector<Interval>;
+
+// States at the nodes, mesh.size() + 1 of them. At a span's end: the state before its point loads.
+using NodeStates = std::vector<State>;
+
+struct Convergence {
+  bool converged = false;
+  int iterations = 0;
+  double last_update = 0;  // largest change of a component; rotations in half radians, wrenches relative to the largest
+};
+
+class BandSystem;
+
+class Shooting {
+ public:
+  // At least one interval a span and `minimum` in all, at most half a radian of rest curvature an interval.
+  Shooting(const ScaledRod& rod, int minimum);
+  ~Shooting();
+  Shooting(const Shooting&) = delete;
+  Shooting& operator=(const Shooting&) = delete;
+
+  // The unloaded rod: clamp at the origin, rest curvature only.
+  NodeStates unloaded() const;
+
+  // Newton's iteration without damping. Converged when an update is <= tolerance, or <= 1e-9 and no longer falling
+  // (round-off). Given up when not finite, when two updates grow in turn, or after max_iterations.
+  Convergence newton(NodeStates& y, double load_factor, double tolerance, int max_iterations);
+
+  // d(states)/d(load_factor) at a solution; zero if the matrix is singular there.
+  std::vector<Core> tangent(const NodeStates& y, double load_factor);
+
+  // Splits the intervals whose step disagrees with two half steps by more than the tolerance (components as in
+  // Convergence, position over L). Returns whether any was split; more than max_intervals: no split, false.
+  bool refine(NodeStates& y, double load_factor, double tolerance, int max_intervals);
+  void halve(NodeStates& y, double load_factor);
+
+  // Sets the positions, which Newton's unknowns do not hold.
+  void integrate_positions(NodeStates& y, double load_factor) const;
+
+  // State at the start of interval i, beyond the point loads there.
+  State start_state(const NodeStates& y, double load_factor, std::size_t i) const;
+  RodEquations equations(std::size_t i, double load_factor) const;
+
+  const Mesh& mesh() const { return mesh_; }
+
+ private:
+  Core weights(const NodeStates& y) const;  // 1 for q, 1/(1 + largest) for N and M
+  void assemble(const NodeStates& y, double load_factor, const Core& weight);
+  std::vector<Core> residual(const NodeStates& y, double load_factor) const;
+  double local_error(const NodeStates& y, double load_factor, const Core& weight, std::size_t i) const;
+  void split(NodeStates& y, double load_factor, const std::vector<int>& parts);
+
+  const ScaledRod& rod_;
+  Mesh mesh_;
+  std::unique_ptr<BandSystem> band_;
+};
+
+}  // namespace exact_reference

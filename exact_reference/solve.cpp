@@ -1,0 +1,32 @@
+#include "exact_reference/solve.h"
+
+#include "exact_reference/boundary_value.h"
+#include "exact_reference/initial_value.h"
+
+namespace exact_reference {
+
+scene::Equilibrium solve(const scene::Scene& scene, const Options& options) {
+  if (!(options.tolerance >= 1e-13 && options.tolerance <= 1e-3)) {
+    throw scene::SceneError("options: tolerance = " + std::to_string(options.tolerance) + ": must be 1e-13 to 1e-3");
+  }
+  const ScaledRod rod = scaled_rod(scene, options.model);
+  const bool march = options.way == Way::automatic ? !rod.has_fixed_load() : options.way == Way::initial_value;
+  if (march && rod.has_fixed_load()) {
+    scene::Equilibrium refused;
+    refused.status = scene::Status::unsupported;
+    refused.message = "a march from the tip needs follower loads only; this scene has a load in the base frame";
+    return refused;
+  }
+  scene::Equilibrium result =
+      march ? solve_initial_value(rod, options.tolerance) : solve_boundary_value(rod, options.tolerance);
+  // Tendons and rest curvature alone: the elastic energy is convex in the strains, and no load does work.
+  if (march && result.converged() && !rod.has_follower_load()) result.stable = true;
+  result.model.insert(result.model.begin(),
+                      {{"solver", std::string(march ? "march by CVODE from the tip" : "multiple shooting")},
+                       {"shear", rod.shears_or_stretches()},
+                       {"reason", std::string(march ? "all loads follow the rod" : "loads in the base frame")}});
+  if (!march && !rod.has_fixed_load()) std::get<std::string>(result.model[2].second) = "asked for";
+  return result;
+}
+
+}  // namespace exact_reference

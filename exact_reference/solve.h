@@ -1,0 +1,32 @@
+// Exact reference: the rod equations solved to round-off, the judge of the other methods.
+#pragma once
+
+#include "exact_reference/scaled_rod.h"
+#include "scene/equilibrium.h"
+#include "scene/scene.h"
+
+namespace exact_reference {
+
+enum class Way {
+  automatic,      // initial_value where all loads follow, else boundary_value
+  initial_value,  // follower loads and tendons only; any other load: status unsupported
+  boundary_value
+};
+
+struct Options {
+  RodModel model = RodModel::reissner;
+  double tolerance = 1e-12;  // of the tip, over L, 1e-13 to 1e-3; round-off may be larger, error_estimate_mm says so
+  Way way = Way::automatic;
+};
+
+// The equilibrium that the rod reaches when its loads (tendons included) grow together from zero.
+//
+// stable: decided for fixed forces, distributed fixed forces, gravity and tendons, by the second variation
+// (stability.h); empty under follower loads and fixed moments, which are not conservative in space, and where it is
+// neutral.
+//
+// Statuses: load_step_too_small, not_converged (boundary_value.h, initial_value.h), unsupported.
+// Throws scene::SceneError if an option is out of its range. The scene must be valid.
+scene::Equilibrium solve(const scene::Scene& scene, const Options& options = {});
+
+}  // namespace exact_reference
