@@ -4,6 +4,7 @@
 #include "studies/study1.h"
 
 #include "studies/error_measures.h"
+#include "studies/exact_method.h"
 #include "studies/fam_method.h"
 #include "studies/fem_method.h"
 #include "studies/output_file.h"
@@ -46,6 +47,10 @@ std::map<std::string, std::unique_ptr<Method>> competitors() {
   methods["fam_fourth_order_50"] = fam_method(fam_options(Law::fourth_order, 50, kirchhoff));
   methods["fam_fourth_order_50_reissner"] = fam_method(fam_options(Law::fourth_order, 50, fam::RodModel::reissner));
   methods["fe"] = fem_method(fem_options(fem_reference::RodModel::reissner));
+  methods["exact"] = exact_method({});
+  exact_reference::Options exact_kirchhoff;
+  exact_kirchhoff.model = exact_reference::RodModel::kirchhoff;
+  methods["exact_kirchhoff"] = exact_method(exact_kirchhoff);
   methods["fe_kirchhoff"] = fem_method(fem_options(fem_reference::RodModel::kirchhoff));
   return methods;
 }
