@@ -4,9 +4,9 @@ namespace fam {
 
 SectionPose pose_on(const Arc& arc, const SectionPose& proximal, double fraction) {
   SectionPose pose = proximal;
-  if (fraction > 0) pose = pose.then(exponential({{arc.twist_before_rad, 0, 0}, Vector3d::Zero()}));
+  if (fraction > 0) pose = pose.then(twist(arc.twist_before_rad));
   pose = pose.then(exponential(fraction * arc.screw));
-  if (fraction == 1) pose = pose.then(exponential({{arc.twist_after_rad, 0, 0}, Vector3d::Zero()}));
+  if (fraction == 1) pose = pose.then(twist(arc.twist_after_rad));
   return pose;
 }
 

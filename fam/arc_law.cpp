@@ -39,6 +39,26 @@ Residual moment_residual(const PlaneLoad& load, double angle) {
 
 }  // namespace
 
+ArcConstants arc_constants(const scene::Span& span, int arcs, RodModel model, double load_factor) {
+  const scene::Stiffness& stiffness = span.stiffness;
+  const double h = span.length_mm() / arcs;
+  const auto compliance = [h](double stiffness_value) { return h / stiffness_value; };
+
+  ArcConstants arc;
+  arc.length_mm = h;
+  arc.angular_compliance = {compliance(stiffness.torsion_Nmm2), compliance(stiffness.bending_Nmm2[0]),
+                            compliance(stiffness.bending_Nmm2[1])};
+  arc.rest_rotation =
+      h * span.rest_curvature_per_mm + load_factor * arc.angular_compliance.cwiseProduct(span.tendon_S.moment_Nmm);
+  arc.rest_translation_mm = {h, 0, 0};
+  if (model == RodModel::reissner) {
+    if (stiffness.axial_N) arc.linear_compliance[0] = compliance(*stiffness.axial_N);
+    if (stiffness.shear_N) arc.linear_compliance.tail<2>() = h * stiffness.shear_N->cwiseInverse();
+    arc.rest_translation_mm += load_factor * arc.linear_compliance.cwiseProduct(span.tendon_S.force_N);
+  }
+  return arc;
+}
+
 bool published_angle(const PlaneLoad& load, double& angle_rad) {
   double angle = load.moment + load.normal / 2;  // curvature of the straight arc's mean moment
   const double scale = std::abs(load.moment) + std::abs(load.normal);

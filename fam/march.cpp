@@ -6,25 +6,6 @@
 namespace fam {
 namespace {
 
-ArcConstants arc_constants(const scene::Span& span, int arcs, RodModel model) {
-  const scene::Stiffness& stiffness = span.stiffness;
-  const double h = span.length_mm() / arcs;
-  const auto compliance = [h](double stiffness_value) { return h / stiffness_value; };
-
-  ArcConstants arc;
-  arc.length_mm = h;
-  arc.angular_compliance = {compliance(stiffness.torsion_Nmm2), compliance(stiffness.bending_Nmm2[0]),
-                            compliance(stiffness.bending_Nmm2[1])};
-  arc.rest_rotation = h * span.rest_curvature_per_mm + arc.angular_compliance.cwiseProduct(span.tendon_S.moment_Nmm);
-  arc.rest_translation_mm = {h, 0, 0};
-  if (model == RodModel::reissner) {
-    if (stiffness.axial_N) arc.linear_compliance[0] = compliance(*stiffness.axial_N);
-    if (stiffness.shear_N) arc.linear_compliance.tail<2>() = h * stiffness.shear_N->cwiseInverse();
-    arc.rest_translation_mm += arc.linear_compliance.cwiseProduct(span.tendon_S.force_N);
-  }
-  return arc;
-}
-
 SectionWrench to_section(const scene::Wrench& wrench) {
   return {wrench.force_N, wrench.moment_Nmm};
 }
@@ -34,9 +15,7 @@ struct ArcMotion {
   RigidMotion before, screw, after;
 
   explicit ArcMotion(const Arc& arc)
-      : before(exponential({{arc.twist_before_rad, 0, 0}, Vector3d::Zero()})),
-        screw(exponential(arc.screw)),
-        after(exponential({{arc.twist_after_rad, 0, 0}, Vector3d::Zero()})) {}
+      : before(twist(arc.twist_before_rad)), screw(exponential(arc.screw)), after(twist(arc.twist_after_rad)) {}
 
   SectionWrench carry(const SectionWrench& distal) const {
     return transport(before, transport(screw, transport(after, distal)));
@@ -86,13 +65,11 @@ template <bool with_shear>
 bool March::run_law() {
   if (law_ == Law::midpoint) {
     march([](const ArcConstants& constants, SectionWrench& wrench, Arc& arc) {
-      arc.screw = midpoint_strain<with_shear>(constants, wrench);
-      wrench = transport(exponential(arc.screw), wrench);
+      midpoint_step<with_shear>(constants, wrench, arc.screw);
     });
   } else {
     march([](const ArcConstants& constants, SectionWrench& wrench, Arc& arc) {
-      arc.screw = fourth_order_strain<with_shear>(constants, wrench);
-      wrench = transport(exponential(arc.screw), wrench);
+      fourth_order_step<with_shear>(constants, wrench, arc.screw);
     });
   }
   return true;

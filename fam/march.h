@@ -12,8 +12,6 @@
 
 namespace fam {
 
-enum class RodModel { automatic, kirchhoff, reissner };
-
 class March {
  public:
   // Allocates all it needs. arcs_per_span: at least one arc for each span. The spans must carry follower loads and

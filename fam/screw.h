@@ -14,37 +14,62 @@ namespace fam {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Strain times arc length: rotation vector (rad) and translation (mm), both in the arc's proximal frame.
-struct Screw {
-  Vector3d rotation = Vector3d::Zero();
-  Vector3d translation_mm = Vector3d::Zero();
-};
+// Everything here is a template on the scalar: double, or a number that carries derivatives along.
+template <class T>
+using Vector3 = Eigen::Matrix<T, 3, 1>;
 
-inline Screw operator+(const Screw& a, const Screw& b) {
+// Strain times arc length: rotation vector (rad) and translation (mm), both in the arc's proximal frame.
+template <class T>
+struct BasicScrew {
+  Vector3<T> rotation = Vector3<T>::Zero();
+  Vector3<T> translation_mm = Vector3<T>::Zero();
+};
+using Screw = BasicScrew<double>;
+
+template <class T>
+BasicScrew<T> operator+(const BasicScrew<T>& a, const BasicScrew<T>& b) {
   return {a.rotation + b.rotation, a.translation_mm + b.translation_mm};
 }
-inline Screw operator*(double factor, const Screw& a) {
-  return {factor * a.rotation, factor * a.translation_mm};
+template <class T>
+BasicScrew<T> operator*(double factor, const BasicScrew<T>& a) {
+  return {a.rotation * T(factor), a.translation_mm * T(factor)};
 }
 
 // Lie bracket of se(3).
-inline Screw bracket(const Screw& a, const Screw& b) {
+template <class T>
+BasicScrew<T> bracket(const BasicScrew<T>& a, const BasicScrew<T>& b) {
   return {a.rotation.cross(b.rotation), a.rotation.cross(b.translation_mm) + a.translation_mm.cross(b.rotation)};
 }
 
 // Internal force and moment in a section frame.
-struct SectionWrench {
-  Vector3d force_N = Vector3d::Zero();
-  Vector3d moment_Nmm = Vector3d::Zero();
+template <class T>
+struct BasicWrench {
+  Vector3<T> force_N = Vector3<T>::Zero();
+  Vector3<T> moment_Nmm = Vector3<T>::Zero();
 };
+using SectionWrench = BasicWrench<double>;
+
+template <class T>
+BasicWrench<T> operator+(const BasicWrench<T>& a, const BasicWrench<T>& b) {
+  return {a.force_N + b.force_N, a.moment_Nmm + b.moment_Nmm};
+}
+template <class T>
+BasicWrench<T> operator*(double factor, const BasicWrench<T>& a) {
+  return {a.force_N * T(factor), a.moment_Nmm * T(factor)};
+}
 
 // A = sin t / t, B = (1 - cos t) / t^2, C = (t - sin t) / t^3.
-struct ScrewCoefficients {
-  double A, B, C;
+template <class T>
+struct BasicCoefficients {
+  T A, B, C;
 };
+using ScrewCoefficients = BasicCoefficients<double>;
 
-inline ScrewCoefficients screw_coefficients(double angle_squared) {
-  const double x = angle_squared;
+template <class T>
+BasicCoefficients<T> screw_coefficients(const T& angle_squared) {
+  using std::sin;
+  using std::sqrt;
+  const T& x = angle_squared;
   if (x < 1) {  // the first dropped term is below 1/19! = 8e-18
     // clang-format off
     return {1 - x * (1 / 6. - x * (1 / 120. - x * (1 / 5040. - x * (1 / 362880. - x * (1 / 39916800.
@@ -55,40 +80,50 @@ inline ScrewCoefficients screw_coefficients(double angle_squared) {
               - x * (1 / 1307674368000. - x * (1 / 355687428096000.)))))))};
     // clang-format on
   }
-  const double angle = std::sqrt(x);
-  const double a = std::sin(angle) / angle;
-  const double half = std::sin(angle / 2);
+  const T angle = sqrt(x);
+  const T a = sin(angle) / angle;
+  const T half = sin(angle / 2);
   return {a, 2 * half * half / x, (1 - a) / x};
 }
 
 // exp of a screw, kept as increments to the identity so that products of many small ones do not lose digits:
 // R x = x + A w x x + B w x (w x x).
-struct RigidMotion {
-  Vector3d rotation;     // w, rad
-  Vector3d position_mm;  // p = (I + B [w]x + C [w]x^2) d
-  double A, B;
+template <class T>
+struct BasicMotion {
+  Vector3<T> rotation;     // w, rad
+  Vector3<T> position_mm;  // p = (I + B [w]x + C [w]x^2) d
+  T A, B;
 
-  Vector3d rotate(const Vector3d& x) const {
-    const Vector3d wx = rotation.cross(x);
+  Vector3<T> rotate(const Vector3<T>& x) const {
+    const Vector3<T> wx = rotation.cross(x);
     return x + (A * wx + B * rotation.cross(wx));
   }
-  Vector3d rotate_back(const Vector3d& x) const {
-    const Vector3d wx = rotation.cross(x);
+  Vector3<T> rotate_back(const Vector3<T>& x) const {
+    const Vector3<T> wx = rotation.cross(x);
     return x + (B * rotation.cross(wx) - A * wx);
   }
 };
+using RigidMotion = BasicMotion<double>;
 
-inline RigidMotion exponential(const Screw& screw) {
-  const Vector3d& w = screw.rotation;
-  const Vector3d& d = screw.translation_mm;
-  const auto [A, B, C] = screw_coefficients(w.squaredNorm());
-  const Vector3d wd = w.cross(d);
-  return {w, d + (B * wd + C * w.cross(wd)), A, B};
+template <class T>
+BasicMotion<T> exponential(const BasicScrew<T>& screw) {
+  const Vector3<T>& w = screw.rotation;
+  const Vector3<T>& d = screw.translation_mm;
+  const T angle_squared = w.dot(w);
+  const BasicCoefficients<T> k = screw_coefficients(angle_squared);
+  const Vector3<T> wd = w.cross(d);
+  return {w, d + (k.B * wd + k.C * w.cross(wd)), k.A, k.B};
+}
+
+// A turn about the tangent.
+inline RigidMotion twist(double angle_rad) {
+  return exponential(Screw{{angle_rad, 0, 0}, Vector3d::Zero()});
 }
 
 // Wrench at the proximal end of a motion from the one at its distal end: n_p = R n_d, m_p = R m_d + p x n_p.
-inline SectionWrench transport(const RigidMotion& motion, const SectionWrench& distal) {
-  const Vector3d force = motion.rotate(distal.force_N);
+template <class T>
+BasicWrench<T> transport(const BasicMotion<T>& motion, const BasicWrench<T>& distal) {
+  const Vector3<T> force = motion.rotate(distal.force_N);
   return {force, motion.rotate(distal.moment_Nmm) + motion.position_mm.cross(force)};
 }
 

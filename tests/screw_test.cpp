@@ -14,9 +14,9 @@ using namespace fam;
 
 // Closed forms in long double, with half angles against cancellation, where the angle is not small; Taylor at zero.
 TEST(Screw, CoefficientsAgainstLongDouble) {
-  EXPECT_EQ(screw_coefficients(0).A, 1);
-  EXPECT_EQ(screw_coefficients(0).B, 0.5);
-  EXPECT_EQ(screw_coefficients(0).C, 1 / 6.);
+  EXPECT_EQ(screw_coefficients(0.0).A, 1);
+  EXPECT_EQ(screw_coefficients(0.0).B, 0.5);
+  EXPECT_EQ(screw_coefficients(0.0).C, 1 / 6.);
   for (double angle : {1e-8, 1e-4, 0.01, 0.1, 0.3, 0.7, 0.999, 1.001, 1.5, 3.0, 6.0, 12.0}) {
     const long double t = std::sqrt(static_cast<long double>(angle) * angle);
     const long double half = std::sin(t / 2);
@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Angles, ScrewAtAngle, testing::Values(0.0, 1e-8, 1e-3, 
 // A quarter circle of length pi/2: radius 1, tip at (1, 1).
 TEST(Screw, QuarterCircle) {
   const double quarter = std::numbers::pi / 2;
-  const SectionPose tip = SectionPose{}.then(exponential({{0, 0, quarter}, {quarter, 0, 0}}));
+  const SectionPose tip = SectionPose{}.then(exponential(Screw{{0, 0, quarter}, {quarter, 0, 0}}));
   EXPECT_LT((tip.position_B_mm - Vector3d(1, 1, 0)).norm(), 1e-15);
   EXPECT_LT((tip.rotation_BS.col(0) - Vector3d(0, 1, 0)).norm(), 1e-15);
 }
@@ -88,7 +88,7 @@ TEST(TotalAngle, FollowsTurns) {
     std::vector<scene::Station> stations;
     for (int i = 0; i <= 400; ++i) {
       const double angle = 2 * std::numbers::pi * turns * i / 400;
-      const SectionPose pose = SectionPose{}.then(exponential({angle * Vector3d(0, 0.6, 0.8), Vector3d::Zero()}));
+      const SectionPose pose = SectionPose{}.then(exponential(Screw{angle * Vector3d(0, 0.6, 0.8), Vector3d::Zero()}));
       stations.push_back({i / 400., {pose.rotation_BS, pose.position_B_mm}});
     }
     EXPECT_NEAR(scene::total_angle_rad(stations), 2 * std::numbers::pi * std::abs(turns), 1e-6);
