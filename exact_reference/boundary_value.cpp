@@ -34,7 +34,13 @@ struct Path {
   double load = 0;
   int steps = 0;
   int newton_iterations = 0;
+  bool watch_stability = false;  // conservative, and stable so far
 };
+
+// Beside a buckling load the branches lie too close to be told apart by their distance: a step from a stable to an
+// unstable equilibrium is refused, too, unless it is as short as this. Only a rod that its symmetry holds on the
+// unstable branch gets past it (a column loaded exactly on its axis).
+constexpr double smallest_bifurcation_step = 1e-5;
 
 // Predicts, corrects, judges one step; leaves the path as it was if it is refused. Returns the miss, infinite if
 // refused.
@@ -48,6 +54,10 @@ double try_step(Path& path, const std::vector<Core>& tangent, double step) {
   const double miss = largest_turn(corrected, predicted);
   const bool jumped = !(miss <= largest_miss_rad) || !(largest_turn(corrected, path.y) <= largest_turn_rad);
   if (!newton.converged || jumped) return HUGE_VAL;
+  if (path.watch_stability && falling_directions(path.shooting, corrected, path.load + step).value_or(0) > 0) {
+    if (step > smallest_bifurcation_step) return HUGE_VAL;
+    path.watch_stability = false;
+  }
   path.y = std::move(corrected);
   return miss;
 }
@@ -165,6 +175,7 @@ std::string text(const char* format, double value) {
 scene::Equilibrium solve_boundary_value(const ScaledRod& rod, double tolerance) {
   scene::Equilibrium result;
   Path path{Shooting(rod, initial_intervals), {}};
+  path.watch_stability = !rod.has_follower_load() && !rod.has_fixed_moment();
   path.y = path.shooting.unloaded();
   if (!adapt(path, continuation_local_error, 1e-8) || !follow_load(path)) {
     result.status = scene::Status::load_step_too_small;

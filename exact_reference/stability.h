@@ -15,7 +15,7 @@ namespace exact_reference {
 // equations; the rod's form is block tridiagonal, and its negative eigenvalues are counted while eliminating from tip
 // to clamp. Their number is that of the conjugate points in (0, L]. Intervals must be short enough to hold none
 // themselves. Only for scenes without follower loads and fixed moments; `y` must be an equilibrium of `shooting`'s
-// mesh.
-std::optional<int> falling_directions(const Shooting& shooting, const NodeStates& y);
+// mesh under `load` times the loads.
+std::optional<int> falling_directions(const Shooting& shooting, const NodeStates& y, double load = 1);
 
 }  // namespace exact_reference

@@ -31,20 +31,12 @@ March::March(std::span<const scene::Span> spans, std::span<const int> arcs_per_s
   int first_arc = 0;
   spans_.reserve(spans.size());
   for (std::size_t i = 0; i < spans.size(); ++i) {
-    spans_.push_back({arc_constants(spans[i], arcs_per_span[i], model), first_arc, arcs_per_span[i], spans[i].start_mm,
-                      spans[i].end_mm, to_section(spans[i].follower_load_S), to_section(spans[i].tendon_S)});
+    spans_.push_back({arc_constants(spans[i], arcs_per_span[i], model), first_arc, arcs_per_span[i],
+                      to_section(spans[i].follower_load_S), to_section(spans[i].tendon_S)});
     first_arc += arcs_per_span[i];
   }
   arcs_.resize(static_cast<std::size_t>(first_arc));
   poses_.resize(arcs_.size() + 1);
-}
-
-double March::end_mm(int arc_end) const {
-  const auto after = std::upper_bound(spans_.begin(), spans_.end(), arc_end,
-                                      [](int end, const SpanArcs& span) { return end < span.first_arc; });
-  const SpanArcs& span = *(after - 1);
-  const double fraction = static_cast<double>(arc_end - span.first_arc) / span.arc_count;
-  return fraction < 1 ? span.start_mm + fraction * (span.end_mm - span.start_mm) : span.end_mm;
 }
 
 // Tip to clamp: strain_of(constants, distal wrench, arc) sets the arc and the wrench at its proximal end.

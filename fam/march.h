@@ -26,8 +26,6 @@ class March {
   // Clamp to tip, after run(): arcs, and the poses of their ends (one more than arcs).
   const std::vector<Arc>& arcs() const { return arcs_; }
   const std::vector<SectionPose>& poses() const { return poses_; }
-  // Arc lengths of the arc ends, clamp to tip, mm.
-  double end_mm(int arc_end) const;
   // Internal force and moment at the clamp, tendons included; the clamp's section frame is the base frame.
   const SectionWrench& base_wrench() const { return base_wrench_; }
   int failed_arc() const { return failed_arc_; }
@@ -37,7 +35,6 @@ class March {
     ArcConstants constants;
     int first_arc;
     int arc_count;
-    double start_mm, end_mm;
     SectionWrench load_S;    // follower loads at the span's distal end
     SectionWrench tendon_S;  // internal wrench of the tendons in the span
   };

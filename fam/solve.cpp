@@ -1,5 +1,7 @@
 #include "fam/solve.h"
 
+#include "fam/scene_facts.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,8 +13,8 @@ using scene::Equilibrium;
 using scene::Span;
 using scene::Status;
 
-// Why the march cannot take a load, empty where it can.
-std::string unsupported_load(const scene::Load& load) {
+// Why the published law cannot take a load, empty where it can.
+std::string beyond_published(const scene::Load& load) {
   if (const auto* force = std::get_if<scene::Force>(&load)) {
     if (force->frame == scene::Frame::fixed) return "a force in a fixed frame";
   } else if (const auto* moment = std::get_if<scene::Moment>(&load)) {
@@ -30,11 +32,11 @@ bool gives_way(const scene::Stiffness& stiffness) {
 }
 
 std::string unsupported(const scene::Scene& scene, const std::vector<Span>& spans, const Options& options) {
-  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
-    const std::string what = unsupported_load(scene.loads[i]);
-    if (!what.empty()) return "loads[" + std::to_string(i) + "]: the finite arc method cannot solve " + what + " yet";
-  }
   if (options.law != Law::published) return {};
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    const std::string what = beyond_published(scene.loads[i]);
+    if (!what.empty()) return "loads[" + std::to_string(i) + "]: the published law cannot solve " + what;
+  }
   if (options.model == RodModel::reissner) return "the published law is a Kirchhoff rod's: no shear, no stretch";
   for (const Span& span : spans) {
     if (span.stiffness.bending_Nmm2[0] != span.stiffness.bending_Nmm2[1]) {
@@ -50,27 +52,14 @@ double shear_bound_mm(const std::vector<Span>& spans) {
   double bound = 0;
   double force = 0;
   for (auto span = spans.rbegin(); span != spans.rend(); ++span) {
-    force += span->follower_load_S.force_N.norm();
+    force += span->follower_load_S.force_N.norm() + span->fixed_load_B.force_N.norm() +
+             span->length_mm() * (span->follower_force_S_N_per_mm.norm() + span->fixed_force_B_N_per_mm.norm());
     double compliance = 0;
     if (span->stiffness.axial_N) compliance = 1 / *span->stiffness.axial_N;
     if (span->stiffness.shear_N) compliance = std::max(compliance, 1 / span->stiffness.shear_N->minCoeff());
     bound += span->length_mm() * compliance * (force + span->tendon_S.force_N.norm());
   }
   return 3 * bound;
-}
-
-// True where all bending is about one axis of the section, y or z, and nothing twists.
-bool is_planar(const std::vector<Span>& spans) {
-  const auto about = [&](int axis) {  // 2: the x-y plane, 1: the x-z plane
-    const int other = 3 - axis;
-    return std::all_of(spans.begin(), spans.end(), [&](const Span& span) {
-      const auto& load = span.follower_load_S;
-      return load.force_N[axis] == 0 && load.moment_Nmm[0] == 0 && load.moment_Nmm[other] == 0 &&
-             span.rest_curvature_per_mm[0] == 0 && span.rest_curvature_per_mm[other] == 0 &&
-             span.tendon_S.moment_Nmm[other] == 0;
-    });
-  };
-  return about(2) || about(1);
 }
 
 // What is fixed once the options are read against the scene.
@@ -105,17 +94,61 @@ Choice choose(const std::vector<Span>& spans, const Options& options, double tol
   return choice;
 }
 
-// One march with its status.
+Prepared prepared(const std::vector<Span>& spans, const std::vector<int>& arcs, const Choice& choice,
+                  TwistOrder order) {
+  if (all_loads_follow(spans)) return March(spans, arcs, choice.law, choice.model, order);
+  return BoundaryValue(spans, arcs, choice.law, choice.model);
+}
+
+// A march or a boundary value problem, solved.
 struct Run {
-  March march;
+  Prepared solver;
   Status status;
 
-  Run(const std::vector<Span>& spans, const std::vector<int>& arcs, const Choice& choice, TwistOrder order)
-      : march(spans, arcs, choice.law, choice.model, order), status(march.run()) {}
+  Run(const std::vector<Span>& spans, const std::vector<int>& arcs, const Choice& choice, TwistOrder order,
+      const Run* half_as_many = nullptr)
+      : solver(prepared(spans, arcs, choice, order)) {
+    auto* boundary_value = std::get_if<BoundaryValue>(&solver);
+    const bool start = boundary_value && half_as_many && half_as_many->status == Status::converged;
+    status = start ? boundary_value->run_from(std::get<BoundaryValue>(half_as_many->solver)) : run_prepared(solver);
+  }
+
+  const std::vector<Arc>& arcs() const {
+    return std::visit([](const auto& s) -> const std::vector<Arc>& { return s.arcs(); }, solver);
+  }
+  const std::vector<SectionPose>& poses() const {
+    return std::visit([](const auto& s) -> const std::vector<SectionPose>& { return s.poses(); }, solver);
+  }
+  int arc_count() const { return static_cast<int>(arcs().size()); }
 };
+
+// Arc lengths of the arc ends, clamp to tip, mm.
+std::vector<double> arc_ends_mm(const std::vector<Span>& spans, const std::vector<int>& arcs) {
+  std::vector<double> ends{0};
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    for (int k = 1; k < arcs[i]; ++k) ends.push_back(spans[i].start_mm + spans[i].length_mm() * k / arcs[i]);
+    ends.push_back(spans[i].end_mm);
+  }
+  return ends;
+}
 
 std::vector<int> doubled(std::vector<int> arcs) {
   for (int& count : arcs) count *= 2;
+  return arcs;
+}
+
+// Arcs to start with: one a span for the march; enough to carry the growth of the boundary value problem.
+std::vector<int> first_arcs(const std::vector<Span>& spans) {
+  std::vector<int> arcs(spans.size(), 1);
+  if (all_loads_follow(spans)) return arcs;
+  double force = 0;
+  for (std::size_t i = spans.size(); i-- > 0;) {
+    const Span& span = spans[i];
+    force += span.follower_load_S.force_N.norm() + span.fixed_load_B.force_N.norm() +
+             span.length_mm() * (span.follower_force_S_N_per_mm.norm() + span.fixed_force_B_N_per_mm.norm());
+    const double growth = span.length_mm() * std::sqrt(force / least_stiffness_Nmm2(span));
+    arcs[i] = static_cast<int>(std::clamp(std::ceil(2 * growth), 1.0, 1000.0));
+  }
   return arcs;
 }
 
@@ -124,7 +157,7 @@ double order_factor(Law law) {
 }  // 2^p
 
 // Largest distance between the arc ends that two marches share.
-double distance_mm(const March& coarse, const March& fine) {
+double distance_mm(const Run& coarse, const Run& fine) {
   double largest = 0;
   for (std::size_t k = 0; k < coarse.poses().size(); ++k) {
     largest = std::max(largest, (coarse.poses()[k].position_B_mm - fine.poses()[2 * k].position_B_mm).norm());
@@ -132,32 +165,30 @@ double distance_mm(const March& coarse, const March& fine) {
   return largest;
 }
 
-double round_off_mm(const March& march) {
-  return 4 * std::numeric_limits<double>::epsilon() * march.end_mm(march.arc_count()) * std::sqrt(march.arc_count());
+double round_off_mm(const std::vector<Span>& spans, const Run& run) {
+  return 4 * std::numeric_limits<double>::epsilon() * spans.back().end_mm * std::sqrt(run.arc_count());
 }
 
 // Stations at the arc ends and, for pictures and for counting turns, between them: at least 40 intervals along the
 // rod and none that turns by more than half a radian.
-std::vector<scene::Station> stations_of(const March& march) {
+std::vector<scene::Station> stations_of(const Run& run, const std::vector<double>& ends_mm) {
   constexpr int fewest_intervals = 40;
   constexpr double largest_turn_rad = 0.5;
-  const int arcs = march.arc_count();
+  const int arcs = run.arc_count();
   std::vector<scene::Station> stations{{}};
-  for (int k = 0; k < arcs; ++k) {
-    const Arc& arc = march.arcs()[static_cast<std::size_t>(k)];
-    const SectionPose& proximal = march.poses()[static_cast<std::size_t>(k)];
-    const double start = march.end_mm(k);
-    const double end = march.end_mm(k + 1);
+  for (std::size_t k = 0; k + 1 < ends_mm.size(); ++k) {
+    const Arc& arc = run.arcs()[k];
     const double turn = arc.screw.rotation.norm() + std::abs(arc.twist_before_rad) + std::abs(arc.twist_after_rad);
     const int for_turn = static_cast<int>(std::min(1e4, std::ceil(turn / largest_turn_rad)));
     const int pieces = std::max({1, (fewest_intervals + arcs - 1) / arcs, for_turn});
     for (int i = 1; i < pieces; ++i) {
       const double fraction = static_cast<double>(i) / pieces;
-      const SectionPose pose = pose_on(arc, proximal, fraction);
-      stations.push_back({start + fraction * (end - start), {pose.rotation_BS, pose.position_B_mm}});
+      const SectionPose pose = pose_on(arc, run.poses()[k], fraction);
+      stations.push_back(
+          {ends_mm[k] + fraction * (ends_mm[k + 1] - ends_mm[k]), {pose.rotation_BS, pose.position_B_mm}});
     }
-    const SectionPose& distal = march.poses()[static_cast<std::size_t>(k) + 1];
-    stations.push_back({end, {distal.rotation_BS, distal.position_B_mm}});
+    const SectionPose& distal = run.poses()[k + 1];
+    stations.push_back({ends_mm[k + 1], {distal.rotation_BS, distal.position_B_mm}});
   }
   return stations;
 }
@@ -165,87 +196,102 @@ std::vector<scene::Station> stations_of(const March& march) {
 Equilibrium failure(const Run& run) {
   Equilibrium result;
   result.status = run.status;
-  const int arcs = run.march.arc_count();
-  result.message = run.status == Status::arc_not_converged
-                       ? "the bending angle of arc " + std::to_string(run.march.failed_arc()) + " of " +
-                             std::to_string(arcs) + " (from the clamp) was not found; more arcs make each one easier"
-                       : "a pose or wrench overflowed with " + std::to_string(arcs) + " arcs";
+  const std::string arcs = std::to_string(run.arc_count());
+  if (const auto* boundary_value = std::get_if<BoundaryValue>(&run.solver)) {
+    result.message = boundary_value->message() + ", with " + arcs + " arcs";
+  } else if (run.status == Status::arc_not_converged) {
+    result.message = "the bending angle of arc " + std::to_string(std::get<March>(run.solver).failed_arc()) + " of " +
+                     arcs + " (from the clamp) was not found; more arcs make each one easier";
+  } else {
+    result.message = "a pose or wrench overflowed with " + arcs + " arcs";
+  }
   return result;
 }
 
-Equilibrium success(const March& march, double error_mm) {
+// What a solve was asked for and how.
+struct Task {
+  const std::vector<Span>& spans;
+  const Options& options;
+  Choice choice;
+  double tolerance_mm;
+};
+
+Equilibrium success(const Task& task, const Run& run, const std::vector<int>& arcs, double error_mm,
+                    const std::string& reason) {
   Equilibrium result;
   result.status = Status::converged;
-  result.stations = stations_of(march);
+  result.stations = stations_of(run, arc_ends_mm(task.spans, arcs));
   result.tip_angle_rad = scene::total_angle_rad(result.stations);
-  result.base_force_B_N = march.base_wrench().force_N;
-  result.base_moment_B_Nmm = march.base_wrench().moment_Nmm;
+  const SectionWrench& base =
+      std::visit([](const auto& s) -> const SectionWrench& { return s.base_wrench(); }, run.solver);
+  result.base_force_B_N = base.force_N;
+  result.base_moment_B_Nmm = base.moment_Nmm;
   result.error_estimate_mm = error_mm;
-  return result;
-}
-
-void describe(Equilibrium& result, const March& march, const std::vector<Span>& spans, const Choice& choice,
-              const std::string& reason) {
-  const bool torsion = std::any_of(march.arcs().begin(), march.arcs().end(), [](const Arc& arc) {
+  const bool torsion = std::any_of(run.arcs().begin(), run.arcs().end(), [](const Arc& arc) {
     return arc.screw.rotation[0] != 0 || arc.twist_before_rad != 0 || arc.twist_after_rad != 0;
   });
-  result.model = {{"law", std::string(name(choice.law))},
-                  {"arcs", march.arc_count()},
-                  {"planar", is_planar(spans)},
+  const auto* boundary_value = std::get_if<BoundaryValue>(&run.solver);
+  result.model = {{"law", std::string(name(task.choice.law))},
+                  {"arcs", run.arc_count()},
+                  {"planar", is_planar(task.spans)},
                   {"torsion", torsion},
-                  {"shear", choice.model == RodModel::reissner},
-                  {"solver", std::string("march")},
-                  {"reason", choice.reason + "; " + reason}};
+                  {"shear", task.choice.model == RodModel::reissner},
+                  {"solver", std::string(boundary_value ? "boundary value" : "march")},
+                  {"reason", task.choice.reason + "; " + reason}};
+  if (boundary_value) {
+    result.model.emplace_back("segments", boundary_value->segment_count());
+    result.model.emplace_back("load_steps", boundary_value->load_steps());
+    result.model.emplace_back("newton_iterations", boundary_value->newton_steps());
+    if (conservative(task.spans)) result.stable = boundary_value->stable();
+  }
+  return result;
 }
 
-Equilibrium solve_fixed(const std::vector<Span>& spans, const Options& options, const Choice& choice) {
-  const std::vector<int> arcs = scene::cells_per_span(spans, options.arcs);
-  const Run run(spans, arcs, choice, options.twist_order);
+Equilibrium solve_fixed(const Task& task) {
+  const std::vector<int> arcs = scene::cells_per_span(task.spans, task.options.arcs);
+  const Run run(task.spans, arcs, task.choice, task.options.twist_order);
   if (run.status != Status::converged) return failure(run);
   double error = 0;
-  if (options.estimate_error) {
-    const Run twice(spans, doubled(arcs), choice, options.twist_order);
-    const double factor = order_factor(choice.law);
+  if (task.options.estimate_error) {
+    const Run twice(task.spans, doubled(arcs), task.choice, task.options.twist_order, &run);
+    const double factor = order_factor(task.choice.law);
     error = twice.status == Status::converged
-                ? factor / (factor - 1) * distance_mm(run.march, twice.march) + round_off_mm(run.march)
+                ? factor / (factor - 1) * distance_mm(run, twice) + round_off_mm(task.spans, run)
                 : std::numeric_limits<double>::infinity();
   }
-  Equilibrium result = success(run.march, error + choice.left_out_mm);
-  describe(result, run.march, spans, choice, "number of arcs given");
-  return result;
+  return success(task, run, arcs, error + task.choice.left_out_mm, "number of arcs given");
 }
 
 // Doubles the arcs until N or 2N arcs meet the tolerance by the difference between them.
-Equilibrium solve_to_tolerance(const std::vector<Span>& spans, const Options& options, const Choice& choice,
-                               double tolerance_mm) {
-  const double factor = order_factor(choice.law);
-  std::vector<int> arcs(spans.size(), 1);
-  Run coarse(spans, arcs, choice, options.twist_order);
+Equilibrium solve_to_tolerance(const Task& task) {
+  const double factor = order_factor(task.choice.law);
+  std::vector<int> arcs = first_arcs(task.spans);
+  std::optional<Run> coarse(std::in_place, task.spans, arcs, task.choice, task.options.twist_order);
   double error = std::numeric_limits<double>::infinity();
-  while (2 * coarse.march.arc_count() <= max_arcs) {
-    arcs = doubled(arcs);
-    Run fine(spans, arcs, choice, options.twist_order);
-    if (coarse.status == Status::converged && fine.status == Status::converged) {
-      const double difference = distance_mm(coarse.march, fine.march);
-      const auto accept = [&](const March& march, double estimate) {
-        error = estimate + round_off_mm(march) + choice.left_out_mm;
-        return error <= tolerance_mm;
+  int failures = coarse->status == Status::converged ? 0 : 1;
+  const bool marching = std::holds_alternative<March>(coarse->solver);
+  while (2 * coarse->arc_count() <= max_arcs && (marching || failures < 4)) {
+    const std::vector<int> twice = doubled(arcs);
+    Run fine(task.spans, twice, task.choice, task.options.twist_order, &*coarse);
+    if (fine.status != Status::converged) ++failures;
+    if (coarse->status == Status::converged && fine.status == Status::converged) {
+      const double difference = distance_mm(*coarse, fine);
+      const auto meets = [&](const Run& run, double estimate) {
+        error = estimate + round_off_mm(task.spans, run) + task.choice.left_out_mm;
+        return error <= task.tolerance_mm;
       };
-      for (const auto& [run, estimate] :
-           {std::pair{&coarse, factor / (factor - 1) * difference}, std::pair{&fine, 2 / (factor - 1) * difference}}) {
-        if (!accept(run->march, estimate)) continue;
-        Equilibrium result = success(run->march, error);
-        describe(result, run->march, spans, choice, "arcs doubled until the estimate met the tolerance");
-        return result;
-      }
+      const std::string reason = "arcs doubled until the estimate met the tolerance";
+      if (meets(*coarse, factor / (factor - 1) * difference)) return success(task, *coarse, arcs, error, reason);
+      if (meets(fine, 2 / (factor - 1) * difference)) return success(task, fine, twice, error, reason);
     }
-    coarse = std::move(fine);
+    arcs = twice;
+    coarse.emplace(std::move(fine));
   }
-  if (coarse.status != Status::converged) return failure(coarse);
+  if (coarse->status != Status::converged) return failure(*coarse);
   Equilibrium result;
   result.status = Status::tolerance_not_met;
   result.message = "estimated tip error " + std::to_string(error) + " mm exceeds the tolerance " +
-                   std::to_string(tolerance_mm) + " mm with " + std::to_string(coarse.march.arc_count()) + " arcs";
+                   std::to_string(task.tolerance_mm) + " mm with " + std::to_string(coarse->arc_count()) + " arcs";
   return result;
 }
 
@@ -261,12 +307,16 @@ const char* name(Law law) {
   return "unknown";
 }
 
-std::optional<March> prepare(const scene::Scene& scene, const Options& options, std::string& reason) {
+Status run_prepared(Prepared& solver) {
+  return std::visit([](auto& s) { return s.run(); }, solver);
+}
+
+std::optional<Prepared> prepare(const scene::Scene& scene, const Options& options, std::string& reason) {
   const std::vector<Span> spans = scene::spans_of(scene);
   reason = unsupported(scene, spans, options);
   if (!reason.empty()) return std::nullopt;
   const Choice choice = choose(spans, options, options.tolerance_mm);
-  return March(spans, scene::cells_per_span(spans, options.arcs), choice.law, choice.model, options.twist_order);
+  return prepared(spans, scene::cells_per_span(spans, options.arcs), choice, options.twist_order);
 }
 
 Equilibrium solve(const scene::Scene& scene, const Options& options) {
@@ -278,9 +328,9 @@ Equilibrium solve(const scene::Scene& scene, const Options& options) {
     result.message = why_not;
     return result;
   }
-  const double tolerance = options.tolerance_mm > 0 ? options.tolerance_mm : 1e-3 * spans.back().end_mm;
-  const Choice choice = choose(spans, options, tolerance);
-  return options.arcs > 0 ? solve_fixed(spans, options, choice) : solve_to_tolerance(spans, options, choice, tolerance);
+  const double tolerance_mm = options.tolerance_mm > 0 ? options.tolerance_mm : 1e-3 * spans.back().end_mm;
+  const Task task{spans, options, choose(spans, options, tolerance_mm), tolerance_mm};
+  return options.arcs > 0 ? solve_fixed(task) : solve_to_tolerance(task);
 }
 
 }  // namespace fam

@@ -1,6 +1,7 @@
 // Entry point of the finite arc method: a scene and options in, an equilibrium out.
 #pragma once
 
+#include "fam/boundary_value.h"
 #include "fam/march.h"
 
 #include "scene/equilibrium.h"
@@ -8,6 +9,7 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 
 namespace fam {
 
@@ -31,7 +33,8 @@ struct Options {
 const char* name(Law law);
 
 // Solves a valid scene (scene::validate). Numerical trouble is a status, never an exception:
-//   unsupported        a load in a fixed frame or a distributed force; published law with shear or EI_y != EI_z
+//   unsupported        published law with a fixed or distributed load, with shear or EI_y != EI_z
+//   load_step_too_small, not_converged   see fam/boundary_value.h
 //   arc_not_converged  see fam/arc_law.h
 //   tolerance_not_met  estimated tip error > tolerance with max_arcs arcs
 //   not_finite         overflow
@@ -41,8 +44,11 @@ const char* name(Law law);
 // on what they could do is added.
 scene::Equilibrium solve(const scene::Scene& scene, const Options& options = {});
 
-// The march that options with fixed arcs, law and model describe, ready to run without further allocation; empty where
-// solve() would end in `unsupported`, with the reason.
-std::optional<March> prepare(const scene::Scene& scene, const Options& options, std::string& reason);
+// The solver that options with fixed arcs, law and model describe, with its memory; empty where solve() would end in
+// `unsupported`, with the reason. run_prepared does not allocate for a march, nor for a boundary value problem of one
+// segment.
+using Prepared = std::variant<March, BoundaryValue>;
+std::optional<Prepared> prepare(const scene::Scene& scene, const Options& options, std::string& reason);
+scene::Status run_prepared(Prepared& solver);
 
 }  // namespace fam

@@ -16,9 +16,9 @@ class FamMethod : public Method {
   std::function<void()> bare_solve(const scene::Scene& scene) const override {
     if (options_.arcs == 0) return [scene, options = options_] { fam::solve(scene, options); };
     std::string reason;
-    std::optional<fam::March> march = fam::prepare(scene, options_, reason);
-    if (!march) return [] {};
-    return [march = std::move(*march)]() mutable { march.run(); };
+    std::optional<fam::Prepared> solver = fam::prepare(scene, options_, reason);
+    if (!solver) return [] {};
+    return [solver = std::move(*solver)]() mutable { fam::run_prepared(solver); };
   }
 
  private:

@@ -106,13 +106,14 @@ TEST(Command, TextCsvAndPicture) {
 }
 
 TEST(Command, UnsupportedIsExitStatusOneAndNoTip) {
-  const Outcome text = run(fam, "solve " + case_file("S4_fixed"));
+  const Outcome text = run(fam, "solve " + case_file("S4_fixed") + " --law published");
   EXPECT_EQ(text.exit_status, 1);
   EXPECT_EQ(text.out, "");
   EXPECT_NE(text.err.find("unsupported: loads[0]"), std::string::npos) << text.err;
 
   const fs::path svg = scratch() / "never.svg";
-  const Outcome outcome = run(fam, "solve " + case_file("S4_fixed") + " --format json --svg " + svg.string());
+  const Outcome outcome =
+      run(fam, "solve " + case_file("S4_fixed") + " --law published --format json --svg " + svg.string());
   EXPECT_EQ(outcome.exit_status, 1);
   const json result = json::parse(outcome.out);
   EXPECT_EQ(result["status"], "unsupported");

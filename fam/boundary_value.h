@@ -1,0 +1,126 @@
+// Scenes with loads in the base frame: a two-point boundary value problem over the arcs.
+//
+// Fixed loads have known components in the section frame only once the rod's rotation is known, so the march starts
+// from a guessed tip rotation and must arrive at the clamp with R = I. Long marches are ill-conditioned: a change at
+// the tip grows like exp(w) towards the clamp, w = integral of sqrt(force / EI) ds (sqrt(|F| L^2 / EI) for a tip force
+// F). So the rod is cut into segments of w <= segment_growth, the pose and wrench at their ends are unknowns too, and
+// all are solved for together (multiple shooting; 3 unknowns with one segment, 9 more with each further one; cost
+// linear in the arcs and the segments).
+//
+// Branch. Below unique_load a rod under fixed forces has one equilibrium, its energy being convex up to
+// w^2 = pi^2/4 (w with the least of EI and GJ; with EI in planar scenes), and the full load is solved for at once, as
+// long as the moments turn the rod by no more than largest_turn_rad. Beyond it the load
+// grows from zero in steps; a step is taken only if Newton converges and no segment end turns by more than
+// largest_turn_rad in it nor lies farther than largest_surprise_rad from where the last two steps pointed. Where the
+// loads have an energy, a step that ends unstable is shortened as well, down to smallest_bifurcation_step: beside a
+// buckling load the branches lie too close to be told apart by their distance. Only a rod whose symmetry holds it on
+// the unstable branch passes (a column loaded exactly on its axis stays straight). So the answer is the equilibrium
+// that the rod reaches when its loads grow together from zero; a snap-through ends in load_step_too_small.
+#pragma once
+
+#include "fam/march.h"
+
+#include <optional>
+#include <string>
+
+namespace fam {
+
+constexpr double unique_load = 2.4;
+constexpr double segment_growth = 1.6;
+constexpr double largest_turn_rad = 0.8;
+constexpr double largest_surprise_rad = 0.15;
+constexpr double smallest_load_step = 1e-6;
+constexpr double smallest_bifurcation_step = 1e-5;
+constexpr int max_newton_steps = 20;
+// Newton ends where the next step is expected below this: rotations in rad, moments in EI/L, forces in EI/L^2. The
+// expectation is the step squared after fresh derivatives, else the step times the last shrinkage.
+constexpr double newton_tolerance = 1e-13;
+
+class BoundaryValue {
+ public:
+  // Law midpoint or fourth_order; every kind of load. Throws nothing but std::bad_alloc.
+  BoundaryValue(std::span<const scene::Span> spans, std::span<const int> arcs_per_span, Law law, RodModel model);
+
+  // From no load to the full load. converged, load_step_too_small, not_converged or not_finite; message() says why.
+  scene::Status run();
+  // The full load, starting from the solution with half the arcs of the same spans.
+  scene::Status run_from(const BoundaryValue& half_as_many);
+
+  int arc_count() const { return static_cast<int>(arcs_.size()); }
+  const std::vector<Arc>& arcs() const { return arcs_; }
+  const std::vector<SectionPose>& poses() const { return poses_; }
+  const SectionWrench& base_wrench() const { return base_wrench_; }
+  int segment_count() const { return static_cast<int>(segments_.size()); }
+  int load_steps() const { return load_steps_; }
+  int newton_steps() const { return newton_steps_; }
+  const std::string& message() const { return message_; }
+
+  // Whether the equilibrium is a minimum of the energy: no conjugate point between the tip and the clamp. Only for
+  // fixed forces, gravity and tendons (the caller's to check); empty where a conjugate point lies at the clamp.
+  std::optional<bool> stable() const;
+
+ private:
+  template <class T>
+  struct State {  // base axes in the section frame, and the wrench there
+    Eigen::Matrix<T, 3, 3> rotation_SB;
+    BasicWrench<T> wrench;
+  };
+  struct SpanArcs {
+    ArcConstants constants;
+    SectionWrench follower_load_S, fixed_load_B;   // at the span's distal end, at the current load
+    Vector3d follower_force_S_N, fixed_force_B_N;  // distributed, times the arc length
+    bool distributed;
+    int first_arc, end_arc;
+  };
+  struct Segment {
+    int first_arc, end_arc;  // arcs first_arc..end_arc-1, the last of them marched first
+  };
+  // What a segment's march misses at its proximal end (rotation, force, moment, scaled), its derivatives with respect
+  // to the node at the distal end, and that of the rotation with respect to the node arrived at.
+  struct SegmentEquations {
+    Eigen::Matrix<double, 9, 1> residual;
+    Eigen::Matrix<double, 9, 9> arrival;
+    Matrix3d mismatch_slope;
+  };
+
+  void cut_into_segments();
+  void set_load(double factor);
+  void start_unloaded();
+  std::vector<State<double>> predict(double factor) const;
+  bool newton();
+  bool newton_one_segment();
+  bool newton_segments();
+  bool grow_load();
+  scene::Status finish(bool solved);
+  template <class T, class After>
+  void march(int first_arc, int end_arc, State<T>& state, After&& after_arc) const;
+  template <bool with_shear, class T, class After>
+  void march_law(int first_arc, int end_arc, State<T>& state, After&& after_arc) const;
+  template <int N>
+  void evaluate_segment(std::size_t k, SegmentEquations& equations) const;
+  double apply(const Eigen::VectorXd& step);
+
+  std::vector<scene::Span> spans_;
+  std::vector<int> arcs_per_span_;
+  Law law_;
+  RodModel model_;
+  double length_mm_ = 0;
+  double bending_Nmm2_ = 0;  // the least stiffness: unit of forces and moments
+  double total_growth_ = 0;  // w of the whole rod
+  double total_turn_rad_ = 0;
+
+  std::vector<SpanArcs> span_arcs_;
+  std::vector<Segment> segments_;        // clamp to tip
+  std::vector<State<double>> nodes_;     // at the distal end of each segment
+  std::vector<State<double>> previous_;  // the same at the last load but one
+  double factor_ = 0, previous_factor_ = 0;
+
+  std::vector<Arc> arcs_;
+  std::vector<SectionPose> poses_;
+  SectionWrench base_wrench_;
+  int load_steps_ = 0;
+  int newton_steps_ = 0;
+  std::string message_;
+};
+
+}  // namespace fam

@@ -1,0 +1,22 @@
+// What can be read off a scene's spans before it is solved.
+#pragma once
+
+#include "scene/span.h"
+
+#include <span>
+
+namespace fam {
+
+// The march from the tip suffices: all loads are in the section frame and none is distributed.
+bool all_loads_follow(std::span<const scene::Span> spans);
+
+// All bending is about one axis of the section, y or z, and nothing twists.
+bool is_planar(std::span<const scene::Span> spans);
+
+// The loads have an energy: fixed forces, gravity and tendons alone.
+bool conservative(std::span<const scene::Span> spans);
+
+// The smallest of GJ, EI_y, EI_z.
+double least_stiffness_Nmm2(const scene::Span& span);
+
+}  // namespace fam

@@ -1,0 +1,253 @@
+// Fixed, mixed, distributed loads and gravity: the boundary value problem over the arcs against the exact reference.
+#include "allocation_counter.h"
+#include "exact_reference/solve.h"
+#include "fam/dual.h"
+#include "fam/solve.h"
+#include "support.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <numbers>
+#include <random>
+
+namespace {
+
+using Eigen::Vector3d;
+using fam::Law;
+using scene::Frame;
+using support::slender;
+using support::uniform_rod;
+
+constexpr double pi = std::numbers::pi;
+
+scene::Equilibrium solved(const scene::Scene& scene, double tolerance_mm) {
+  fam::Options options;
+  options.tolerance_mm = tolerance_mm;
+  const scene::Equilibrium result = fam::solve(scene, options);
+  EXPECT_TRUE(result.converged()) << scene.title << " " << result.message;
+  return result;
+}
+
+double distance_mm(const scene::Equilibrium& a, const scene::Equilibrium& b) {
+  if (!a.converged() || !b.converged()) return INFINITY;
+  return (a.tip().position_B_mm - b.tip().position_B_mm).norm();
+}
+
+scene::Scene tip_force(const scene::Stiffness& stiffness, const Vector3d& force_N, double length_mm = 40) {
+  return uniform_rod(length_mm, stiffness, {scene::Force{length_mm, Frame::fixed, force_N}});
+}
+
+// theory.md, section 6, and the fixed 1 N scene: tips by collocation with continuation, independent of this project.
+TEST(BoundaryValue, CheckValues) {
+  struct Check {
+    scene::Scene scene;
+    Vector3d tip_mm;
+    double limit_mm;
+  };
+  const Vector3d direction(-0.3, 0.8, 0.6);
+  const std::vector<Check> checks = {
+      {tip_force(slender(750, 500), {0, 1, 0}), {33.03110716, 20.47065732, 0}, 1e-7},
+      {tip_force(slender(1500, 1000), 100 * direction), {-4.7903, 29.7072, 22.2804}, 1e-4},
+      {tip_force(slender(1500, 1000), 1000 * direction), {-9.37405, 30.35216, 22.76412}, 1e-5}};
+  for (const Check& check : checks) {
+    const scene::Equilibrium result = solved(check.scene, 1e-7);
+    EXPECT_LT((result.tip().position_B_mm - check.tip_mm).norm(), check.limit_mm);
+    EXPECT_EQ(result.stable, true);
+    const scene::Equilibrium stiff = solved(support::stiffer(check.scene), 1e-7);
+    EXPECT_GT((stiff.tip().position_B_mm - check.tip_mm).norm(), check.limit_mm);
+  }
+}
+
+// Study I, fixed loads, against the independent tips of tests/data.
+TEST(BoundaryValue, GatesOfStudy1) {
+  const double limit_mm = 1e-7;
+  for (const std::string& name : support::study1_cases()) {
+    const Vector3d exact_mm = support::study1_tip_mm(name, "fixed", "reissner");
+    const scene::Scene scene = support::study1_scene(name, "fixed");
+    EXPECT_LT((solved(scene, limit_mm).tip().position_B_mm - exact_mm).norm(), limit_mm) << name;
+    EXPECT_GT((solved(support::stiffer(scene), limit_mm).tip().position_B_mm - exact_mm).norm(), limit_mm) << name;
+  }
+}
+
+// Any direction but near pure compression, |F| L^2 / EI up to 1000: the stable branch, within 1e-7 L of exact.
+TEST(BoundaryValue, LargeFixedTipForces) {
+  std::mt19937 generator(11);
+  std::normal_distribution<double> normal;
+  for (const double load : {5.0, 30.0, 200.0, 1000.0}) {
+    for (int i = 0; i < 6; ++i) {
+      const Vector3d direction = Vector3d(normal(generator), normal(generator), normal(generator)).normalized();
+      const scene::Scene scene = tip_force(slender(1500, 1000), load * 1500 / 1600 * direction);
+      const scene::Equilibrium result = solved(scene, 0.9e-7 * 40);
+      EXPECT_LT(distance_mm(result, exact_reference::solve(scene)), 1e-7 * 40) << load << " " << direction.transpose();
+      EXPECT_EQ(result.stable, true);
+    }
+  }
+}
+
+TEST(BoundaryValue, ObservedOrders) {
+  const scene::Scene scene =
+      uniform_rod(40, slender(1500, 1000),
+                  {scene::Force{40, Frame::fixed, {-0.5, 0.8, 0.6}}, scene::Moment{40, Frame::fixed, {10, 20, -15}},
+                   scene::DistributedForce{0, 40, Frame::fixed, {0, 0.02, -0.03}},
+                   scene::DistributedForce{0, 40, Frame::follower, {0.01, 0.01, 0.02}}});
+  const scene::Equilibrium exact = exact_reference::solve(scene);
+  for (const auto& [law, order] : {std::pair{Law::midpoint, 2}, std::pair{Law::fourth_order, 4}}) {
+    fam::Options options;
+    options.law = law;
+    options.estimate_error = false;
+    options.arcs = 32;
+    const double coarse = distance_mm(fam::solve(scene, options), exact);
+    options.arcs = 64;
+    EXPECT_NEAR(std::log2(coarse / distance_mm(fam::solve(scene, options), exact)), order, 0.1);
+  }
+}
+
+// Euler: an axial force just beyond pi^2 EI / (4 L^2). Exactly on the axis the straight rod, unstable; with a small
+// lateral force the buckled shape, stable; just below it the straight rod, stable.
+TEST(BoundaryValue, EulerColumn) {
+  const double critical_N = pi * pi * 750 / (4 * 1600);
+  const scene::Equilibrium below = solved(tip_force(slender(750, 500), {-0.999 * critical_N, 0, 0}), 1e-3);
+  EXPECT_EQ(below.stable, true);
+  const scene::Equilibrium beyond = solved(tip_force(slender(750, 500), {-1.001 * critical_N, 0, 0}), 1e-3);
+  EXPECT_EQ(beyond.stable, false);
+  EXPECT_NEAR(beyond.tip().position_B_mm[0], 40, 1e-9);
+  const scene::Scene pushed = tip_force(slender(750, 500), {-1.05 * critical_N, 1e-3, 0});
+  const scene::Equilibrium buckled = solved(pushed, 1e-6);
+  EXPECT_EQ(buckled.stable, true);
+  EXPECT_GT(buckled.tip().position_B_mm[1], 10);
+  EXPECT_LT(distance_mm(buckled, exact_reference::solve(pushed)), 1e-6);
+}
+
+// Greatest height of a column under its own weight: 7.8373 EI / L^3 (06_critical_load_constants.csv).
+TEST(BoundaryValue, HeavyColumn) {
+  for (const auto& [factor, expected] : {std::pair{0.999, true}, std::pair{1.001, false}}) {
+    const double weight = factor * 7.837347 * 750 / (40 * 40 * 40);
+    const scene::Scene scene =
+        uniform_rod(40, slender(750, 500), {scene::DistributedForce{0, 40, Frame::fixed, {-weight, 0, 0}}});
+    EXPECT_EQ(solved(scene, 1e-3).stable, expected) << factor;
+  }
+}
+
+TEST(BoundaryValue, StabilityIsLeftOpenWithoutAnEnergy) {
+  scene::Scene scene = tip_force(slender(750, 500), {0, 1, 0});
+  EXPECT_TRUE(solved(scene, 1e-3).stable.has_value());
+  scene.loads.push_back(scene::Moment{40, Frame::fixed, {0, 0, 1}});
+  EXPECT_FALSE(solved(scene, 1e-3).stable.has_value());
+}
+
+// A pair of tendons at +-y with tensions T1, T2: constant curvature (T1 - T2) d / EI, also beside gravity = 0.
+TEST(BoundaryValue, TendonPair) {
+  const double d = 1.5, curvature = (5.0 - 2.0) * d / 750;
+  const scene::Scene scene = uniform_rod(
+      40, slender(750, 500),
+      {scene::Tendon{{d, 0}, 5, 40}, scene::Tendon{{-d, 0}, 2, 40}, scene::Force{20, Frame::fixed, {0, 0, 0}}});
+  const Vector3d arc(std::sin(40 * curvature) / curvature, (1 - std::cos(40 * curvature)) / curvature, 0);
+  EXPECT_LT((solved(scene, 1e-6).tip().position_B_mm - arc).norm(), 1e-9);
+}
+
+// Random scenes of every combination of load kinds (fixed seed): within the tolerance of the exact reference.
+scene::Scene random_scene(std::mt19937& generator) {
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::normal_distribution<double> normal;
+  const auto vector = [&](double size) -> Vector3d {
+    return size * Vector3d(normal(generator), normal(generator), normal(generator));
+  };
+  scene::Scene scene;
+  const int sections = 1 + static_cast<int>(3 * uniform(generator));
+  for (int i = 0; i < sections; ++i) {
+    scene::Section section;
+    section.length_mm = 10 + 30 * uniform(generator);
+    scene::Stiffness stiffness = slender(500 + 1000 * uniform(generator), 300 + 700 * uniform(generator));
+    stiffness.bending_Nmm2[1] *= 0.5 + uniform(generator);
+    if (uniform(generator) < 0.5) stiffness.axial_N = 200 + 300 * uniform(generator);
+    if (uniform(generator) < 0.5) stiffness.shear_N = Eigen::Vector2d(80, 120);
+    stiffness.mass_per_length_kg_per_m = uniform(generator);
+    section.cross_section = stiffness;
+    if (uniform(generator) < 0.3) section.rest_curvature_per_mm = vector(0.01);
+    scene.sections.push_back(section);
+  }
+  const double length = scene::length_mm(scene);
+  const double force = 750 / (length * length) * (0.3 + 2 * uniform(generator));
+  const auto frame = [&] { return uniform(generator) < 0.5 ? Frame::fixed : Frame::follower; };
+  const auto place = [&] { return uniform(generator) < 0.5 ? length : length * (0.05 + 0.9 * uniform(generator)); };
+  scene.loads.push_back(scene::Force{place(), Frame::fixed, vector(force)});
+  if (uniform(generator) < 0.5) scene.loads.push_back(scene::Force{place(), frame(), vector(force)});
+  if (uniform(generator) < 0.5) scene.loads.push_back(scene::Moment{place(), frame(), vector(0.3 * force * length)});
+  if (uniform(generator) < 0.5) {
+    const double from = length * 0.5 * uniform(generator);
+    scene.loads.push_back(scene::DistributedForce{from, from + 0.4 * length, frame(), vector(force / length)});
+  }
+  if (uniform(generator) < 0.3) scene.loads.push_back(scene::Gravity{{0.3, 0.2, -9.81}});
+  if (uniform(generator) < 0.3) scene.loads.push_back(scene::Tendon{{1, 0.5}, 2, place()});
+  return scene;
+}
+
+TEST(BoundaryValue, RandomScenes) {
+  std::mt19937 generator(5);
+  int compared = 0;
+  for (int i = 0; i < 100; ++i) {
+    scene::Scene scene = random_scene(generator);
+    scene.title = "random scene " + std::to_string(i);
+    const scene::Equilibrium exact = exact_reference::solve(scene);
+    if (!exact.converged()) continue;
+    const double tolerance_mm = 1e-6;
+    EXPECT_LT(distance_mm(solved(scene, tolerance_mm), exact), tolerance_mm) << scene.title;
+    EXPECT_EQ(solved(scene, tolerance_mm).stable, exact.stable) << scene.title;
+    ++compared;
+  }
+  EXPECT_GE(compared, 98);
+}
+
+// The twin of all gates against the exact reference: a stiffer rod is far off.
+TEST(BoundaryValue, AStifferRodIsSeen) {
+  std::mt19937 generator(5);
+  for (int i = 0; i < 10; ++i) {
+    const scene::Scene scene = random_scene(generator);
+    EXPECT_GT(distance_mm(solved(support::stiffer(scene), 1e-6), exact_reference::solve(scene)), 1e-3);
+  }
+}
+
+TEST(BoundaryValue, OneSegmentSolvesWithoutAllocating) {
+  fam::Options options;
+  options.arcs = 12;
+  std::string reason;
+  auto solver = fam::prepare(tip_force(slender(750, 500), {0, 1, 0}), options, reason);
+  ASSERT_TRUE(solver) << reason;
+  const std::size_t before = allocation_count();
+  EXPECT_EQ(fam::run_prepared(*solver), scene::Status::converged);
+  EXPECT_EQ(allocation_count(), before);
+  EXPECT_LT((std::get<fam::BoundaryValue>(*solver).poses().back().position_B_mm - Vector3d(33.03110716, 20.47065732, 0))
+                .norm(),
+            2e-4);
+}
+
+// A thousand fixed forces on one rod.
+TEST(BoundaryValue, ManyLoads) {
+  std::vector<scene::Load> loads;
+  for (int i = 1; i <= 1000; ++i) loads.push_back(scene::Force{0.04 * i, Frame::fixed, {0, 1e-3, 0}});
+  const scene::Scene many = uniform_rod(40, slender(750, 500), loads);
+  const scene::Scene even =
+      uniform_rod(40, slender(750, 500), {scene::DistributedForce{0, 40, Frame::fixed, {0, 0.025, 0}}});
+  // The sum of forces at s_i = 0.04 i stands for the even load with its centre 0.02 mm farther out.
+  const scene::Equilibrium result = solved(many, 1e-6);
+  EXPECT_LT(distance_mm(result, exact_reference::solve(many)), 1e-6);
+  EXPECT_LT(distance_mm(result, solved(even, 1e-6)), 0.05);
+}
+
+// Dual numbers: sin, sqrt, quotients against central differences.
+TEST(Dual, Derivatives) {
+  const auto f = [](auto x, auto y) {
+    using std::sin;
+    using std::sqrt;
+    return sin(x) * sqrt(y) / (1 + x * y) - y;
+  };
+  const fam::Dual<2> x(0.7, {1, 0}), y(1.9, {0, 1});
+  const fam::Dual<2> value = f(x, y);
+  const double h = 1e-6;
+  EXPECT_NEAR(value.value, f(0.7, 1.9), 1e-16);
+  EXPECT_NEAR(value.slope[0], (f(0.7 + h, 1.9) - f(0.7 - h, 1.9)) / (2 * h), 1e-9);
+  EXPECT_NEAR(value.slope[1], (f(0.7, 1.9 + h) - f(0.7, 1.9 - h)) / (2 * h), 1e-9);
+}
+
+}  // namespace
