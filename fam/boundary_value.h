@@ -20,6 +20,9 @@
 
 #include "fam/march.h"
 
+#include <Eigen/LU>
+
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -32,14 +35,15 @@ constexpr double largest_surprise_rad = 0.15;
 constexpr double smallest_load_step = 1e-6;
 constexpr double smallest_bifurcation_step = 1e-5;
 constexpr int max_newton_steps = 20;
-// Newton ends where the next step is expected below this: rotations in rad, moments in EI/L, forces in EI/L^2. The
-// expectation is the step squared after fresh derivatives, else the step times the last shrinkage.
-constexpr double newton_tolerance = 1e-13;
+// Newton ends where the next step is expected below newton_tolerance: rotations in rad, moments in EI/L, forces in
+// EI/L^2. The expectation is the step squared after fresh derivatives, else the step times the last shrinkage.
+constexpr double tightest_newton_tolerance = 1e-13;
 
 class BoundaryValue {
  public:
   // Law midpoint or fourth_order; every kind of load. Throws nothing but std::bad_alloc.
-  BoundaryValue(std::span<const scene::Span> spans, std::span<const int> arcs_per_span, Law law, RodModel model);
+  BoundaryValue(std::span<const scene::Span> spans, std::span<const int> arcs_per_span, Law law, RodModel model,
+                double newton_tolerance = tightest_newton_tolerance);
 
   // From no load to the full load. converged, load_step_too_small, not_converged or not_finite; message() says why.
   scene::Status run();
@@ -88,7 +92,9 @@ class BoundaryValue {
   void start_unloaded();
   std::vector<State<double>> predict(double factor) const;
   bool newton();
-  bool newton_one_segment();
+  bool newton_one_segment(bool fresh_slope);
+  bool one_equilibrium() const;
+  bool solve_at_once();
   bool newton_segments();
   bool grow_load();
   scene::Status finish(bool solved);
@@ -104,6 +110,7 @@ class BoundaryValue {
   std::vector<int> arcs_per_span_;
   Law law_;
   RodModel model_;
+  double newton_tolerance_;
   double length_mm_ = 0;
   double bending_Nmm2_ = 0;  // the least stiffness: unit of forces and moments
   double total_growth_ = 0;  // w of the whole rod
@@ -114,6 +121,9 @@ class BoundaryValue {
   std::vector<State<double>> nodes_;     // at the distal end of each segment
   std::vector<State<double>> previous_;  // the same at the last load but one
   double factor_ = 0, previous_factor_ = 0;
+
+  Eigen::PartialPivLU<Matrix3d> slope_;    // of one segment
+  std::unique_ptr<BoundaryValue> coarse_;  // a quarter of the arcs, where the full load is solved for at once
 
   std::vector<Arc> arcs_;
   std::vector<SectionPose> poses_;

@@ -53,8 +53,9 @@ void March::march(Strain&& strain_of) {
                   wrench.moment_Nmm + spans_.front().tendon_S.moment_Nmm};
 }
 
+// Flattened: with every call inlined an arc takes half the time.
 template <bool with_shear>
-bool March::run_law() {
+[[gnu::flatten]] bool March::run_law() {
   if (law_ == Law::midpoint) {
     march([](const ArcConstants& constants, SectionWrench& wrench, Arc& arc) {
       midpoint_step<with_shear>(constants, wrench, arc.screw);
@@ -78,7 +79,7 @@ bool March::run_published() {
 }
 
 // Clamp to tip: composes the poses of the arc ends.
-void March::place_arcs() {
+[[gnu::flatten]] void March::place_arcs() {
   poses_.front() = SectionPose{};
   for (std::size_t k = 0; k < arcs_.size(); ++k) {
     if (law_ == Law::published) {

@@ -94,10 +94,13 @@ Choice choose(const std::vector<Span>& spans, const Options& options, double tol
   return choice;
 }
 
+// Newton ends a thousandth of the tolerance away, or at round-off where none is given.
 Prepared prepared(const std::vector<Span>& spans, const std::vector<int>& arcs, const Choice& choice,
-                  TwistOrder order) {
-  if (all_loads_follow(spans)) return March(spans, arcs, choice.law, choice.model, order);
-  return BoundaryValue(spans, arcs, choice.law, choice.model);
+                  const Options& options) {
+  if (all_loads_follow(spans)) return March(spans, arcs, choice.law, choice.model, options.twist_order);
+  const double newton_tolerance =
+      std::clamp(1e-3 * options.tolerance_mm / spans.back().end_mm, tightest_newton_tolerance, 1e-6);
+  return BoundaryValue(spans, arcs, choice.law, choice.model, newton_tolerance);
 }
 
 // A march or a boundary value problem, solved.
@@ -105,9 +108,9 @@ struct Run {
   Prepared solver;
   Status status;
 
-  Run(const std::vector<Span>& spans, const std::vector<int>& arcs, const Choice& choice, TwistOrder order,
+  Run(const std::vector<Span>& spans, const std::vector<int>& arcs, const Choice& choice, const Options& options,
       const Run* half_as_many = nullptr)
-      : solver(prepared(spans, arcs, choice, order)) {
+      : solver(prepared(spans, arcs, choice, options)) {
     auto* boundary_value = std::get_if<BoundaryValue>(&solver);
     const bool start = boundary_value && half_as_many && half_as_many->status == Status::converged;
     status = start ? boundary_value->run_from(std::get<BoundaryValue>(half_as_many->solver)) : run_prepared(solver);
@@ -249,11 +252,11 @@ Equilibrium success(const Task& task, const Run& run, const std::vector<int>& ar
 
 Equilibrium solve_fixed(const Task& task) {
   const std::vector<int> arcs = scene::cells_per_span(task.spans, task.options.arcs);
-  const Run run(task.spans, arcs, task.choice, task.options.twist_order);
+  const Run run(task.spans, arcs, task.choice, task.options);
   if (run.status != Status::converged) return failure(run);
   double error = 0;
   if (task.options.estimate_error) {
-    const Run twice(task.spans, doubled(arcs), task.choice, task.options.twist_order, &run);
+    const Run twice(task.spans, doubled(arcs), task.choice, task.options, &run);
     const double factor = order_factor(task.choice.law);
     error = twice.status == Status::converged
                 ? factor / (factor - 1) * distance_mm(run, twice) + round_off_mm(task.spans, run)
@@ -266,13 +269,13 @@ Equilibrium solve_fixed(const Task& task) {
 Equilibrium solve_to_tolerance(const Task& task) {
   const double factor = order_factor(task.choice.law);
   std::vector<int> arcs = first_arcs(task.spans);
-  std::optional<Run> coarse(std::in_place, task.spans, arcs, task.choice, task.options.twist_order);
+  std::optional<Run> coarse(std::in_place, task.spans, arcs, task.choice, task.options);
   double error = std::numeric_limits<double>::infinity();
   int failures = coarse->status == Status::converged ? 0 : 1;
   const bool marching = std::holds_alternative<March>(coarse->solver);
   while (2 * coarse->arc_count() <= max_arcs && (marching || failures < 4)) {
     const std::vector<int> twice = doubled(arcs);
-    Run fine(task.spans, twice, task.choice, task.options.twist_order, &*coarse);
+    Run fine(task.spans, twice, task.choice, task.options, &*coarse);
     if (fine.status != Status::converged) ++failures;
     if (coarse->status == Status::converged && fine.status == Status::converged) {
       const double difference = distance_mm(*coarse, fine);
@@ -316,7 +319,7 @@ std::optional<Prepared> prepare(const scene::Scene& scene, const Options& option
   reason = unsupported(scene, spans, options);
   if (!reason.empty()) return std::nullopt;
   const Choice choice = choose(spans, options, options.tolerance_mm);
-  return prepared(spans, scene::cells_per_span(spans, options.arcs), choice, options.twist_order);
+  return prepared(spans, scene::cells_per_span(spans, options.arcs), choice, options);
 }
 
 Equilibrium solve(const scene::Scene& scene, const Options& options) {

@@ -18,7 +18,7 @@ class FamMethod : public Method {
     std::string reason;
     std::optional<fam::Prepared> solver = fam::prepare(scene, options_, reason);
     if (!solver) return [] {};
-    return [solver = std::move(*solver)]() mutable { fam::run_prepared(solver); };
+    return [shared = std::make_shared<fam::Prepared>(std::move(*solver))] { fam::run_prepared(*shared); };
   }
 
  private:

@@ -14,7 +14,7 @@ void bare_solve(benchmark::State& state, const studies::Method& method, const st
 }
 
 void add(const std::string& name, const std::shared_ptr<studies::Method>& method, benchmark::TimeUnit unit) {
-  for (const char* case_name : {"P4_follower", "S4_follower"}) {
+  for (const char* case_name : {"P2_follower", "P2_fixed", "P4_follower", "S4_follower", "S4_fixed"}) {
     benchmark::RegisterBenchmark((name + "/" + case_name).c_str(), [method, case_name](benchmark::State& state) {
       bare_solve(state, *method, case_name);
     })->Unit(unit);
