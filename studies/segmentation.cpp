@@ -7,7 +7,7 @@
 #include "exact_reference/solve.h"
 #include "fam/solve.h"
 #include "fem_reference/solve.h"
-#include "studies/error_measures.h"
+#include "studies/ablation.h"
 #include "studies/output_file.h"
 #include "studies/provenance.h"
 #include "studies/segmentation_data.h"
@@ -78,6 +78,9 @@ class Segmentation {
     for (const std::string& load_case : study1_cases()) sweep(load_case);
     progress("segmentation", "budgets");
     find_budgets();
+    progress("segmentation", "ablation");
+    const Vector3d fe_tip = fem_reference::solve(p4_).tip().position_B_mm;
+    ablation_ = run_ablation(fe_tip.head<2>());
     draw_shapes();
     progress("segmentation", "times");
     take_times();
@@ -181,6 +184,7 @@ class Segmentation {
   void write() const {
     std::map<std::string, std::string> files = segmentation_tables(data_);
     files.merge(segmentation_pictures(data_));
+    files.merge(ablation_files(ablation_, data_.reference("P4").frame_mm));
     files["README.md"] = segmentation_page(data_);
     files["headline.md"] = segmentation_headline(data_);
     files["timing.md"] = segmentation_timing_page(data_);
@@ -196,6 +200,7 @@ class Segmentation {
   std::filesystem::path folder_;
   scene::Scene p4_;
   SegmentationData data_;
+  AblationData ablation_;
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "studies/chart.h"
+#include "studies/printed_trend.h"
 #include "studies/segmentation_data.h"
 
 #include <algorithm>
@@ -22,18 +23,6 @@ const std::vector<Series> series = {{"published", "published", colour::blue},
                                     {"midpoint", "midpoint", colour::green},
                                     {"fourth_order", "fourth_order", colour::orange},
                                     {"fourth_order_reissner", "fourth_order with shear", colour::purple}};
-
-// The printed statement: minimum at N = 12, below 3 mm up to 500, rising beyond (no values are given).
-void draw_printed(Svg& svg, const Panel& panel) {
-  const Stroke stroke{colour::black, 1.6, "5 3"};
-  const Point left = panel.at({12, 3}), right = panel.at({500, 3});
-  svg.line(left, right, stroke);
-  svg.line(left, {left.x, left.y + 12}, stroke);
-  svg.line(right, {right.x + 30, right.y - 16}, stroke);
-  svg.text({left.x + 4, left.y - 6}, "printed: under 3 mm", Anchor::start, 11);
-  svg.text({left.x - 4, left.y + 26}, "12: printed minimum", Anchor::start, 11);
-  svg.text({right.x + 34, right.y - 8}, "500: rises (printed)", Anchor::start, 11);
-}
 
 void draw_errors(Panel& panel, const SegmentationData& data, double SweepPoint::*error) {
   for (const Series& s : series) {
@@ -61,13 +50,13 @@ std::string error_picture(const SegmentationData& data) {
   exact.frame("Against the exact Kirchhoff rod (elastica)");
   svg.text(exact.at({1.3, 1.6e-11}), "shaded: below 1e-12 L, not resolved", Anchor::start, 11, colour::grey);
   draw_errors(exact, data, &SweepPoint::exact_mm);
-  draw_printed(svg, exact);
+  draw_printed_trend(svg, exact);
   Panel fe(svg, {680, 66}, 390, 390, arcs, {"tip error, mm", 1e-8, 100, true});
   fe.band(1e-8, reference.fe_estimate_mm, "");
   fe.frame("Against 50 quadratic finite elements, with shear and stretch");
   svg.text(fe.at({1.3, 2e-8}), "shaded: the finite elements' own error", Anchor::start, 11, colour::grey);
   draw_errors(fe, data, &SweepPoint::fe_mm);
-  draw_printed(svg, fe);
+  draw_printed_trend(svg, fe);
   return svg.str();
 }
 

@@ -180,7 +180,10 @@ std::string segmentation_headline(const SegmentationData& data) {
       "to "
       "{} mm at 500 and {} mm at 5000; the paper prints a minimum at 12, under 3 mm up to 500, and a rise beyond. "
       "Against "
-      "finite elements it stays at {} mm, the shear that the rod model leaves out.\n\n"
+      "finite elements it stays at {} mm, the shear that the rod model leaves out. "
+      "[What makes such a rise](segmentation/ablation.md): a search between fixed bounds stopped at an absolute "
+      "tolerance "
+      "on the angle; single precision, unsafe formulas or a minimiser alone do not.\n\n"
       "![Tip error over N](segmentation/errors.svg)\n",
       error_of(data, "P4", "published", 12), error_of(data, "P4", "published", 500),
       error_of(data, "P4", "published", 5000), error_of(data, "P4", "published", 500, &SweepPoint::fe_mm));
