@@ -177,6 +177,38 @@ AblationPoint weakened_point(const Weakness& weakness, int arcs, const Eigen::Ve
   return point;
 }
 
+AblationRow swept(AblationRow row, const Eigen::Vector2d& fe_tip_mm) {
+  for (const int arcs : sweep_arcs) row.points.push_back(weakened_point(row.weakness, arcs, fe_tip_mm));
+  return row;
+}
+
+void count(Census& census, double tolerance, const Trend& t) {
+  ++census.curves;
+  census.rise += t.rises();
+  census.under_3_mm += t.under_3_mm();
+  census.minimum_near_12 += t.minimum_near_12();
+  if (!(t.rises() && t.under_3_mm() && t.minimum_near_12())) return;
+  if (census.all_three++ == 0) census.smallest_all = tolerance;
+  census.largest_all = tolerance;
+}
+
+std::vector<Census> take_censuses(const Eigen::Vector2d& fe_tip_mm) {
+  constexpr int curves = 41;
+  std::vector<Census> censuses;
+  for (const auto& [search, name] : {std::pair{Search::golden, "golden section"}, {Search::bisection, "bisection"}}) {
+    Census exact{name, "exact", 0, 0, 0, 0, 0, 0, 0}, fe{name, "fe", 0, 0, 0, 0, 0, 0, 0};
+    for (int i = 0; i < curves; ++i) {
+      const double tolerance = std::pow(10, -4 + 2. * i / (curves - 1));
+      const AblationRow row = swept({"", "", {.search = search, .tolerance = tolerance}, {}}, fe_tip_mm);
+      count(exact, tolerance, trend(row, &AblationPoint::error_mm));
+      count(fe, tolerance, trend(row, &AblationPoint::fe_mm));
+    }
+    censuses.push_back(exact);
+    censuses.push_back(fe);
+  }
+  return censuses;
+}
+
 }  // namespace
 
 double brent_minimum(const std::function<double(double)>& f, double low, double high, double tolerance) {
@@ -210,9 +242,8 @@ const AblationRow& AblationData::row(const std::string& name) const {
 AblationData run_ablation(const Eigen::Vector2d& fe_tip_mm) {
   AblationData data;
   data.rows = variants();
-  for (AblationRow& row : data.rows) {
-    for (const int arcs : sweep_arcs) row.points.push_back(weakened_point(row.weakness, arcs, fe_tip_mm));
-  }
+  for (AblationRow& row : data.rows) row = swept(row, fe_tip_mm);
+  data.censuses = take_censuses(fe_tip_mm);
   for (const int arcs : {1, 12, 100, 500, 1000, 5000}) data.cancellations.push_back(cancellation(arcs));
   return data;
 }

@@ -35,7 +35,16 @@ struct Cancellation {
   double angle_rad, single_precision, double_precision;
 };
 
+// One search stopped at absolute tolerances from 1e-4 to 1e-2 rad, evenly in their logarithm: how many of the curves
+// have what is printed.
+struct Census {
+  std::string search, against;  // golden section, bisection; exact, fe
+  int curves = 0, rise = 0, under_3_mm = 0, minimum_near_12 = 0, all_three = 0;
+  double smallest_all, largest_all;  // tolerances of those with all three, rad
+};
+
 struct AblationData {
+  std::vector<Census> censuses;
   std::vector<AblationRow> rows;
   std::vector<Cancellation> cancellations;
 
@@ -59,6 +68,9 @@ struct Trend {
   bool under_3_mm() const { return largest_12_to_500_mm < 3; }
 };
 Trend trend(const AblationRow& row, double AblationPoint::*error);
+
+std::string ablation_picture(const AblationData& data);
+std::string one_digit(double value);  // of its magnitude; "–" where it is not finite
 
 std::map<std::string, std::string> ablation_files(const AblationData& data, double fixed_frame_mm);
 

@@ -1,5 +1,4 @@
 #include "studies/ablation.h"
-#include "studies/printed_trend.h"
 #include "studies/segmentation_data.h"
 #include "studies/table.h"
 
@@ -10,12 +9,6 @@
 
 namespace studies {
 namespace {
-
-// One digit: weak arithmetic is chaotic, and more would not come out again under other compilers.
-std::string one_digit(double value) {
-  constexpr double round_off = 1e-12;
-  return std::isfinite(value) ? scientific(std::max(std::abs(value), round_off), 0) : "–";
-}
 
 std::string yes(bool value) {
   return value ? "yes" : "no";
@@ -65,6 +58,27 @@ std::string cancellation_csv(const AblationData& data) {
         {std::to_string(c.arcs), one_digit(c.angle_rad), one_digit(c.single_precision), one_digit(c.double_precision)});
   }
   return table.csv({"Relative error of (1 - cos t)/t^2 as written, at t = 2.3 rad / arcs. One digit."});
+}
+
+void census_cells(const Census& c, Table& table) {
+  const bool any = c.all_three > 0;
+  table.add({c.search, c.against, std::to_string(c.curves), std::to_string(c.rise), std::to_string(c.under_3_mm),
+             std::to_string(c.minimum_near_12), std::to_string(c.all_three), any ? one_digit(c.smallest_all) : "–",
+             any ? one_digit(c.largest_all) : "–"});
+}
+
+std::string census_csv(const AblationData& data) {
+  Table table({"search", "against", "curves", "rise", "under_3_mm", "minimum_near_12", "all_three",
+               "smallest_tolerance_of_those", "largest_tolerance_of_those"});
+  for (const Census& c : data.censuses) census_cells(c, table);
+  return table.csv({"P4 (our loads). 41 absolute tolerances from 1e-4 to 1e-2 rad, evenly in their logarithm."});
+}
+
+std::string census_table(const AblationData& data) {
+  Table table({"search", "against", "tolerances", "rise beyond 500", "under 3 mm", "minimum near 12", "all three",
+               "from, rad", "to, rad"});
+  for (const Census& c : data.censuses) census_cells(c, table);
+  return table.markdown();
 }
 
 std::string trend_table(const AblationData& data, bool tolerances) {
@@ -129,8 +143,10 @@ it stay under 3 mm from 12 to 500, does it rise beyond 500 (5000 arcs more than 
 
 **Findings** (our loads; the paper's program is not known, so this shows what *can* make such a curve, not what did):
 
-- All three at once: {all}. What they share is a search **between fixed bounds, stopped at an absolute tolerance** on the
-  angle. An arc's angle shrinks as 1/N, the tolerance does not.
+- All three at once: {all}.
+  What they share is a search **between fixed bounds, stopped at an absolute tolerance** on the angle; of 41 tolerances from
+  1e-4 to 1e-2 rad, {c1} (golden section) and {c2} (bisection) show all three against the exact rod, {c3} and {c4} against
+  finite elements with shear. An arc's angle shrinks as 1/N, the tolerance does not.
 - Rising beyond 500 at all: {rising}.
 - Single precision, with a search as tight as it allows, does rise, but only to {s5000} mm at 5000 arcs: no plateau of
   millimetres.
@@ -138,9 +154,9 @@ it stay under 3 mm from 12 to 500, does it rise beyond 500 (5000 arcs more than 
   root with any tolerance, a radius as the unknown. A method that converges fast overshoots its tolerance by far; only one
   that halves a bracket stops where the tolerance says.
 - Against finite elements the shear that the rod model leaves out puts {fe12} mm under every curve from 12 arcs on; "under
-  3 mm from 12 to 500" is then a plateau. With a golden section stopped at 3e-03 rad the error against finite elements is
-  {g12} mm at 12 arcs, {g500} mm at 500 and {g5000} mm at 5000: each printed statement but the place of the minimum, which the
-  chance of where the search stops decides.
+  3 mm from 12 to 500" is then a plateau. With a bisection stopped at 1e-03 rad the error against finite elements is
+  {g12} mm at 12 arcs, {g500} mm at 500 and {g5000} mm at 5000; with a golden section at 3e-03 rad {h12}, {h500} and
+  {h5000} mm. Where exactly the minimum lies is then chance: it depends on where the search happens to stop.
 - Millimetres between 12 and 500 without any numerical fault: a force that is not turned when it is handed from arc to arc
   ({n12} mm at 12 arcs, {n500} mm at 500), or a finite element model whose loads keep their direction in space while the arcs'
   follow ({frame} mm on P4). Neither rises beyond 500.
@@ -167,6 +183,10 @@ The search stops when its bracket (for the root: its step) is no longer than the
 lengths L.
 
 {tolerances}
+How often, then? 41 tolerances from 1e-4 to 1e-2 rad for each of the two searches that stop where they are told, and how
+many of the curves have what is printed:
+
+{census}
 ## The mechanism, measured
 
 For each arc, its angle minus the sound law's angle for the same wrench. *Bias*: their sum, the rotation by which the whole
@@ -194,15 +214,18 @@ same angles, minus 1.
 - **Force not turned in the arc** makes the law first order an arc short of the exact direction: larger, and falling. **Not
   turned to the next arc** solves another problem: the error settles and no N helps.
 
-Files: `ablation.csv`, `trends.csv`, `cancellation.csv`.
+Files: `ablation.csv`, `trends.csv`, `census.csv`, `cancellation.csv`.
 )",
       fmt::arg("all",
                names_of(data, [](const Trend& t) { return t.minimum_near_12() && t.under_3_mm() && t.rises(); })),
+      fmt::arg("c1", data.censuses[0].all_three), fmt::arg("c2", data.censuses[2].all_three),
+      fmt::arg("c3", data.censuses[1].all_three), fmt::arg("c4", data.censuses[3].all_three),
       fmt::arg("rising", names_of(data, [](const Trend& t) { return t.rises(); })),
       fmt::arg("s5000", error("single precision", 5000)), fmt::arg("fe12", fe("sound: double, root of dPi/dtheta", 12)),
-      fmt::arg("g12", fe("golden section 3e-03", 12)), fmt::arg("g500", fe("golden section 3e-03", 500)),
-      fmt::arg("g5000", fe("golden section 3e-03", 5000)),
-      fmt::arg("n12", error("force not turned to the next arc", 12)),
+      fmt::arg("h12", fe("golden section 3e-03", 12)), fmt::arg("h500", fe("golden section 3e-03", 500)),
+      fmt::arg("h5000", fe("golden section 3e-03", 5000)), fmt::arg("g12", fe("bisection 1e-03", 12)),
+      fmt::arg("g500", fe("bisection 1e-03", 500)), fmt::arg("g5000", fe("bisection 1e-03", 5000)),
+      fmt::arg("census", census_table(data)), fmt::arg("n12", error("force not turned to the next arc", 12)),
       fmt::arg("n500", error("force not turned to the next arc", 500)), fmt::arg("frame", fixed(fixed_frame_mm, 1)),
       fmt::arg("alone", trend_table(data, false)), fmt::arg("tolerances", trend_table(data, true)),
       fmt::arg("mechanism", mechanism_table(data)),
@@ -218,80 +241,21 @@ Files: `ablation.csv`, `trends.csv`, `cancellation.csv`.
       fmt::arg("c5000", one_digit(data.cancellations.back().single_precision)));
 }
 
-struct Series {
-  std::string row, name, colour, dash;
-};
-
-void draw(Panel& panel, const AblationData& data, const std::vector<Series>& series, double AblationPoint::*error) {
-  for (const Series& s : series) {
-    std::vector<Point> points;
-    for (const AblationPoint& p : data.row(s.row).points) {
-      const std::string text = one_digit(p.*error);  // drawn as printed
-      if (text != "–") points.push_back({static_cast<double>(p.arcs), std::stod(text)});
-    }
-    panel.curve(points, {s.colour, 1.6, s.dash});
-    panel.name(points.back(), s.name, s.colour);
-  }
-  panel.place_names();
-}
-
-std::string picture(const AblationData& data) {
-  const std::string sound = "sound: double, root of dPi/dtheta";
-  Svg svg(1130, 1010);
-  svg.text({26, 24}, "Case P4 (our loads): the published law, weakened on purpose. One digit each, as printed",
-           Anchor::start, 15);
-  const Axis arcs{"number of arcs N", 1, 5000, true}, error{"tip error, mm", 1e-8, 100, true};
-  Panel alone(svg, {80, 66}, 340, 380, arcs, error), combined(svg, {640, 66}, 340, 380, arcs, error);
-  alone.frame("Each alone, against the exact Kirchhoff rod");
-  draw(alone, data,
-       {{sound, "sound", colour::black, ""},
-        {"single precision", "single precision", colour::orange, ""},
-        {"GSL Brent", "GSL Brent", colour::green, ""},
-        {"radius unknown, golden section", "radius, golden section", colour::yellow, "4 3"},
-        {"force not turned in the arc", "force not turned in arc", colour::sky, ""},
-        {"force not turned to the next arc", "not turned to next arc", colour::purple, ""}},
-       &AblationPoint::error_mm);
-  combined.frame("Combined, against the exact Kirchhoff rod");
-  draw(combined, data,
-       {{sound, "sound", colour::black, ""},
-        {"single, unsafe", "single, unsafe", colour::orange, ""},
-        {"single, golden", "single, golden", colour::sky, ""},
-        {"single, golden, expanded Pi", "single, expanded Π", colour::green, ""},
-        {"single, unsafe, golden 1e-03", "single, golden 1e-3", colour::purple, ""}},
-       &AblationPoint::error_mm);
-  Panel tolerance(svg, {80, 560}, 340, 380, arcs, error);
-  Panel fe(svg, {640, 560}, 340, 380, arcs, {"tip error, mm", 0.01, 100, true});
-  tolerance.frame("Absolute tolerances, against the exact Kirchhoff rod");
-  draw(tolerance, data,
-       {{sound, "sound", colour::black, ""},
-        {"golden section 1e-02", "golden 1e-2 rad", colour::orange, ""},
-        {"golden section 3e-03", "golden 3e-3", colour::purple, ""},
-        {"golden section 1e-03", "golden 1e-3", colour::blue, ""},
-        {"bisection 1e-03", "bisection 1e-3", colour::blue, "4 3"},
-        {"golden section 1e-05", "golden 1e-5", colour::sky, ""},
-        {"golden section 1e-07", "golden 1e-7", colour::green, ""},
-        {"secant root 1e-03", "secant root 1e-3", colour::yellow, "4 3"}},
-       &AblationPoint::error_mm);
-  fe.frame("The same, against finite elements with shear");
-  draw(fe, data,
-       {{sound, "sound", colour::black, ""},
-        {"golden section 1e-02", "golden 1e-2 rad", colour::orange, ""},
-        {"golden section 3e-03", "golden 3e-3", colour::purple, ""},
-        {"golden section 1e-03", "golden 1e-3", colour::blue, ""},
-        {"bisection 1e-03", "bisection 1e-3", colour::blue, "4 3"}},
-       &AblationPoint::fe_mm);
-  draw_printed_trend(svg, fe);
-  return svg.str();
-}
-
 }  // namespace
+
+// Weak arithmetic is chaotic, and more digits would not come out again under other compilers.
+std::string one_digit(double value) {
+  constexpr double round_off = 1e-12;
+  return std::isfinite(value) ? scientific(std::max(std::abs(value), round_off), 0) : "–";
+}
 
 std::map<std::string, std::string> ablation_files(const AblationData& data, double fixed_frame_mm) {
   return {{"ablation.md", page(data, fixed_frame_mm)},
           {"ablation.csv", ablation_csv(data)},
           {"trends.csv", trends_csv(data)},
           {"cancellation.csv", cancellation_csv(data)},
-          {"ablation.svg", picture(data)}};
+          {"census.csv", census_csv(data)},
+          {"ablation.svg", ablation_picture(data)}};
 }
 
 }  // namespace studies

@@ -12,7 +12,7 @@ inline void draw_printed_trend(Svg& svg, const Panel& panel) {
   svg.line(left, right, stroke);
   svg.line(left, {left.x, left.y + 12}, stroke);
   svg.line(right, {right.x + 30, right.y - 16}, stroke);
-  svg.text({left.x + 4, left.y - 6}, "printed: under 3 mm", Anchor::start, 11);
+  svg.text({left.x - 4, left.y - 6}, "printed: under 3 mm", Anchor::start, 11);
   svg.text({left.x - 4, left.y + 26}, "12: printed minimum", Anchor::start, 11);
   svg.text({right.x - 18, right.y - 22}, "rises beyond 500 (printed)", Anchor::end, 11);
 }

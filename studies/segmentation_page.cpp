@@ -87,8 +87,9 @@ The finite arc method cuts a rod into N arcs. The more arcs, the closer it shoul
 saw something else. Printed in it, for its planar load case 4: the tip error falls steeply to a **minimum at N = 12**,
 stays **under 3 mm (7.5 % of the length) from 12 to 500**, and **rises beyond 500**; the reason offered is that short arcs
 are nearly straight, so that the minimisation cannot find their curvature. This page repeats the sweep with the
-published law as reconstructed, in sound arithmetic. [The ablation](ablation.md) then spoils the arithmetic on purpose
-and shows what makes such a curve.
+published law as reconstructed, in sound arithmetic, and finds no such trend. [The ablation](ablation.md) then spoils the
+arithmetic on purpose and shows what makes such a curve: above all a search for each arc's angle that stops at an
+absolute tolerance.
 
 **The loads are ours** (the paper's are lost): P4 is a rod of 40 × 6 mm, EI = 750 N mm², with a follower force of
 (0, −1.5, 0) N and a moment of 60 N mm about z at its tip, |F|L²/EI = 3.2.
@@ -175,7 +176,7 @@ std::string segmentation_timing_page(const SegmentationData& data) {
 
 std::string segmentation_headline(const SegmentationData& data) {
   return fmt::format(
-      "## [Segmentation](segmentation/README.md): how many arcs, and why the printed error rises\n\n"
+      "## [Segmentation](segmentation/README.md): how many arcs, and what can make the printed error rise\n\n"
       "Planar case P4 (our loads), published law in sound arithmetic: the tip error falls as 1/N² from {} mm at N = 12 "
       "to "
       "{} mm at 500 and {} mm at 5000; the paper prints a minimum at 12, under 3 mm up to 500, and a rise beyond. "
@@ -183,7 +184,7 @@ std::string segmentation_headline(const SegmentationData& data) {
       "finite elements it stays at {} mm, the shear that the rod model leaves out. "
       "[What makes such a rise](segmentation/ablation.md): a search between fixed bounds stopped at an absolute "
       "tolerance "
-      "on the angle; single precision, unsafe formulas or a minimiser alone do not.\n\n"
+      "on the angle; single precision, unsafe formulas or a minimiser alone do not make millimetres.\n\n"
       "![Tip error over N](segmentation/errors.svg)\n",
       error_of(data, "P4", "published", 12), error_of(data, "P4", "published", 500),
       error_of(data, "P4", "published", 5000), error_of(data, "P4", "published", 500, &SweepPoint::fe_mm));

@@ -127,4 +127,25 @@ TEST(Ablation, OnlyABracketWithAnAbsoluteToleranceRises) {
   EXPECT_LT(change_mm(secant, 5000), 1e-6);
 }
 
+// What studies/ablation_page.cpp says in words of the variants.
+TEST(Ablation, TrendsAreAsThePageSays) {
+  const studies::AblationData data = studies::run_ablation({16.0746, 28.5220});
+  for (const studies::AblationRow& row : data.rows) {
+    const studies::Trend t = studies::trend(row, &studies::AblationPoint::error_mm);
+    const studies::Weakness& w = row.weakness;
+    const bool fast = w.search == studies::Search::root || w.search == studies::Search::brent;
+    const bool tight = w.tolerance == 0 || fast || w.radius_unknown;
+    if (!w.single_precision && tight) {
+      EXPECT_FALSE(t.rises()) << row.name;
+    }
+    if (!tight && w.tolerance >= 1e-5 && !w.straight_to_next) {
+      EXPECT_TRUE(t.rises()) << row.name;
+    }
+    if (w.single_precision && w.tolerance == 0) {
+      EXPECT_LT(t.at_5000_mm, 0.1) << row.name;
+    }
+  }
+  EXPECT_TRUE(studies::trend(data.row("single precision"), &studies::AblationPoint::error_mm).rises());
+}
+
 }  // namespace
