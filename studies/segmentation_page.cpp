@@ -101,7 +101,7 @@ absolute tolerance.
 With sound arithmetic the error of the published law falls from {p1} mm with one arc to {p12} mm with 12, {p500} mm with
 500 and {p5000} mm with 5000: by a factor of four for each doubling (second order), with no minimum at 12 and no rise
 beyond 500. Short arcs are no obstacle. Only round-off ends the fall: with a million arcs the error is at or below {p1e6} mm.
-The fourth-order law is at {f12} mm with 12 arcs and {f1000} mm with 1000, and at or below {f1e6} mm with a million.
+The fourth-order law is at {f12} mm with 12 arcs and {f100} mm with 100, and at or below {f1e6} mm with a million.
 
 ![Tip error over N](errors.svg)
 
@@ -148,7 +148,7 @@ to {f4b12}. For a rod of this kind a dozen arcs are enough; what limits the accu
       fmt::arg("p5000", error_of(data, "P4", "published", 5000)),
       fmt::arg("p1e6", error_of(data, "P4", "published", 1'000'000)),
       fmt::arg("f12", error_of(data, "P4", "fourth_order", 12)),
-      fmt::arg("f1000", error_of(data, "P4", "fourth_order", 1000)),
+      fmt::arg("f100", error_of(data, "P4", "fourth_order", 100)),
       fmt::arg("f1e6", error_of(data, "P4", "fourth_order", 1'000'000)),
       fmt::arg("fe_own", error_text(reference.fe_estimate_mm, 0)),
       fmt::arg("e12", error_of(data, "P4", "published", 12, &SweepPoint::fe_mm)),
