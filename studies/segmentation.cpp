@@ -39,7 +39,7 @@ fam::Options march_options(const std::string& law, int arcs) {
 
 fam::March ready_march(const scene::Scene& scene, const std::string& law, int arcs) {
   std::string reason;
-  return fam::prepare(scene, march_options(law, arcs), reason).value();
+  return std::get<fam::March>(fam::prepare(scene, march_options(law, arcs), reason).value());
 }
 
 // Empty where an arc's angle was not found.

@@ -29,9 +29,9 @@ fam::Options with(Law law, int arcs) {
 
 Vector3d tip_mm(const scene::Scene& scene, const fam::Options& options) {
   std::string reason;
-  std::optional<fam::March> march = fam::prepare(scene, options, reason);
-  if (!march || march->run() != scene::Status::converged) return Vector3d::Constant(NAN);
-  return march->poses().back().position_B_mm;
+  auto march = std::get<fam::March>(fam::prepare(scene, options, reason).value());
+  if (march.run() != scene::Status::converged) return Vector3d::Constant(NAN);
+  return march.poses().back().position_B_mm;
 }
 
 // P4's tip error over L; the closed form is good to 1e-13 L.
