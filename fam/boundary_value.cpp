@@ -47,8 +47,8 @@ BasicMotion<T> law_step(Law law, const ArcConstants& constants, const ArcForces<
 
 // The same with every call inlined: twice as fast, but for many derivatives minutes to compile.
 template <bool with_shear, class T>
-[[gnu::flatten]] BasicMotion<T> flat_step(Law law, const ArcConstants& constants, const ArcForces<T>* distributed,
-                                          BasicWrench<T>& wrench, BasicScrew<T>& screw) {
+FAM_FLATTEN BasicMotion<T> flat_step(Law law, const ArcConstants& constants, const ArcForces<T>* distributed,
+                                     BasicWrench<T>& wrench, BasicScrew<T>& screw) {
   return law_step<with_shear>(law, constants, distributed, wrench, screw);
 }
 

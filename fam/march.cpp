@@ -53,9 +53,8 @@ void March::march(Strain&& strain_of) {
                   wrench.moment_Nmm + spans_.front().tendon_S.moment_Nmm};
 }
 
-// Flattened: with every call inlined an arc takes half the time.
 template <bool with_shear>
-[[gnu::flatten]] bool March::run_law() {
+FAM_FLATTEN bool March::run_law() {
   if (law_ == Law::midpoint) {
     march([](const ArcConstants& constants, SectionWrench& wrench, Arc& arc) {
       midpoint_step<with_shear>(constants, wrench, arc.screw);
@@ -79,7 +78,7 @@ bool March::run_published() {
 }
 
 // Clamp to tip: composes the poses of the arc ends.
-[[gnu::flatten]] void March::place_arcs() {
+FAM_FLATTEN void March::place_arcs() {
   poses_.front() = SectionPose{};
   for (std::size_t k = 0; k < arcs_.size(); ++k) {
     if (law_ == Law::published) {
