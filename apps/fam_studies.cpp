@@ -5,6 +5,7 @@
 #include "studies/fem_method.h"
 #include "studies/segmentation.h"
 #include "studies/study1.h"
+#include "studies/study2.h"
 #include "studies/torsion.h"
 
 namespace {
@@ -43,7 +44,10 @@ int main(int argc, char** argv) {
   studies::StudyOptions options;
   options.cases = STUDY_CASES_DIR;
   const std::vector<std::pair<std::string, std::function<void(const studies::StudyOptions&)>>> studies = {
-      {"study1", studies::study1}, {"segmentation", studies::segmentation}, {"torsion", studies::torsion}};
+      {"study1", studies::study1},
+      {"segmentation", studies::segmentation},
+      {"torsion", studies::torsion},
+      {"study2", studies::study2}};
   for (const auto& [name, study] : studies) app.add_subcommand(name, "Run this study and write its results");
   app.add_subcommand("all", "Run every study");
   for (CLI::App* command : app.get_subcommands({})) {
