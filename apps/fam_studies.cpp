@@ -2,6 +2,7 @@
 #include "apps/solve_command.h"
 #include "studies/exact_method.h"
 #include "studies/fam_method.h"
+#include "studies/fe_verification.h"
 #include "studies/fem_method.h"
 #include "studies/segmentation.h"
 #include "studies/study1.h"
@@ -45,6 +46,7 @@ int main(int argc, char** argv) {
   options.cases = STUDY_CASES_DIR;
   const std::vector<std::pair<std::string, std::function<void(const studies::StudyOptions&)>>> studies = {
       {"study1", studies::study1},
+      {"fe-verification", studies::fe_verification},
       {"segmentation", studies::segmentation},
       {"torsion", studies::torsion},
       {"study2", studies::study2}};

@@ -22,8 +22,8 @@ void write_index(const std::filesystem::path& output) {
   std::string text =
       "# Results\n\nWritten by `./reproduce`. Accuracy is deterministic and compared in the tests; timing is not, and\n"
       "stands in files of its own. Each folder has its page, its CSV files, its pictures and its `provenance.json`.\n";
-  for (const char* study :
-       {"study1", "benchmarks", "segmentation", "torsion", "study2", "work_precision", "stability"}) {
+  for (const char* study : {"study1", "fe_verification", "benchmarks", "segmentation", "torsion", "study2",
+                            "work_precision", "stability"}) {
     std::ifstream headline(output / study / "headline.md");
     if (headline) text += "\n" + std::string(std::istreambuf_iterator<char>(headline), {});
   }

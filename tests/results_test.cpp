@@ -82,7 +82,7 @@ bool is_accuracy_file(const fs::path& path) {
 TEST(Results, AreWhatTheStudiesWrite) {
   const fs::path folder = fs::temp_directory_path() / ("fam_results_test_" + std::to_string(getpid()));
   const std::string command =
-      std::string(FAM_STUDIES_COMMAND) + " " RESULTS_STUDY " --quick --output " + folder.string() + " 2>/dev/null";
+      std::string(FAM_STUDIES_COMMAND) + " " RESULTS_COMMAND " --quick --output " + folder.string() + " 2>/dev/null";
   ASSERT_EQ(std::system(command.c_str()), 0);
   int compared = 0;
   for (const auto& entry : fs::directory_iterator(fs::path(RESULTS_DIR) / RESULTS_STUDY)) {
