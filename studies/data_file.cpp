@@ -1,9 +1,10 @@
 #include "studies/data_file.h"
 
+#include "scene/scene.h"
+
 #include <cmath>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 
 namespace studies {
 namespace {
@@ -21,6 +22,7 @@ std::vector<std::string> cells_of(const std::string& line, std::size_t columns) 
 }  // namespace
 
 Printed printed(const std::string& text) {
+  if (text.find_first_of("0123456789") == std::string::npos) throw scene::SceneError("'" + text + "' is no number");
   const std::size_t exponent = text.find_first_of("eE");
   const std::string mantissa = text.substr(0, exponent);
   const std::size_t point = mantissa.find('.');
@@ -34,7 +36,7 @@ Printed shifted(const Printed& number, int power, int factor) {
 
 std::vector<DataRow> data_rows(const std::filesystem::path& file) {
   std::ifstream input(file);
-  if (!input) throw std::runtime_error(file.string() + ": cannot be read");
+  if (!input) throw scene::SceneError(file.string() + ": cannot be read");
   std::vector<DataRow> rows;
   std::vector<std::string> head;
   for (std::string line; std::getline(input, line);) {

@@ -14,7 +14,7 @@ struct Printed {
   int decimals = 0;
 };
 
-Printed printed(const std::string& text);
+Printed printed(const std::string& text);  // throws scene::SceneError
 
 // The same print in a unit that is 10^power times smaller; factor: +1 or -1.
 Printed shifted(const Printed& number, int power, int factor = 1);
@@ -22,7 +22,7 @@ Printed shifted(const Printed& number, int power, int factor = 1);
 // Column name to cell.
 using DataRow = std::map<std::string, std::string>;
 
-// Throws std::runtime_error naming the file if it cannot be read. Only the last column may hold commas.
+// Throws scene::SceneError naming the file if it cannot be read. Only the last column may hold commas.
 std::vector<DataRow> data_rows(const std::filesystem::path& file);
 
 }  // namespace studies
