@@ -204,9 +204,9 @@ std::string headline(const std::vector<BenchmarkResult>& results) {
   return fmt::format(
       R"(## [Benchmarks](benchmarks/README.md): {} published cases, {} points
 
-Exact reference, finite elements and FAM beside what others printed, in matching digits. FAM takes {} of the points
-today; the rest stays in the tables as `unsupported`. Some differences are the sources': the published tips of the 45° bend
-belong to two torsion constants, and two rows of PyElastica's follower table are off.
+Exact reference, finite elements and FAM beside what others printed, in matching digits. FAM solves {} of the
+points; the others stay in the tables with their status. Some differences are the sources': the published tips of the
+45° bend belong to two torsion constants, and two rows of PyElastica's follower table are off.
 
 ![45° bend: published tips and the torsion constant](benchmarks/bend45.svg)
 )",

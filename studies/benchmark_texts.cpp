@@ -11,8 +11,8 @@ std::string benchmark_text(const std::string& key) {
 
 Ten clamped rods for which others printed numbers. Each is solved three times: by the *exact* reference (rod equations
 to round-off), by *FE* (geometrically exact quadratic elements) and by *FAM* (fourth-order arcs), all three with the
-shear and stretch that the scene has. Where a method has no answer its row stays and says so: `unsupported` is a load
-that FAM does not take (forces and moments in a fixed frame, distributed forces).
+shear and stretch that the scene has. Where a method has no answer its row stays and says so; `unsupported`: it does not
+take this kind of load.
 
 **Matching digits** = −log₁₀(|value − published| / |published|), of a vector by norms, of digitised curves over the
 rod's length. Never more than the source carries (its printed digits, fewer where it was read off a figure, ten at
@@ -66,8 +66,8 @@ series of order 30. The exact line is drawn to λ = 0.2, the points go to λ = 1
       {"princeton",
        R"(Aluminium strip 508 × 12.3777 × 3.2024 mm, E = 71.7 GPa, ν = 0.31, force at the tip at an angle to its stiff direction
 (Dowell & Traybar 1975; the measured deflections were not found in digits). The published tips are of other programs:
-ANSYS beams agree to three digits; ANSYS solids are stiffer by up to 4 %, which no beam
-model here shows and we cannot explain.
+ANSYS beams agree to three digits; ANSYS solids are stiffer by up to 4 %, which no beam model here shows
+and we cannot explain.
 )"},
       {"pazy",
        R"(A wing of 0.55 m with masses hung at its tip, deflected to half its span: the one measurement here. The rod is the
@@ -78,7 +78,7 @@ the wing's own weight.
 )"},
       {"critical",
        R"(The load at which the straight rod stops being stable. The exact reference decides `stable` by the second variation; the
-value is where it flips, found by halving. FE and FAM return no statement on stability and stay as rows. Lateral: a
+value is where it flips, found by halving. Methods that make no statement on stability stay as rows. Lateral: a
 narrow cantilever (stiff to weak bending 1e10) loaded in its stiff plane. Beck's column is loaded by a follower force: it
 flutters at 20.05 and has no static limit, so `stable` is rightly left undecided. Not here: torques on rods clamped at
 both ends or with moments of a potential (Greenhill, semitangential), which are no scenes of ours.

@@ -1,6 +1,6 @@
 // fam-studies benchmarks: reads the scenes of studies/cases/benchmarks and the published numbers of tests/data, solves
 // each point with the methods below, writes points.csv, lines.csv, overview.csv, a picture a benchmark and README.md
-// (benchmark_page.cpp, benchmark_pictures.cpp), timing.csv and timing.md to results/benchmarks. Some fifteen seconds.
+// (benchmark_page.cpp, benchmark_pictures.cpp), timing.csv and timing.md to results/benchmarks. Half a minute.
 #include "studies/benchmarks.h"
 
 #include "studies/benchmark_cases.h"
