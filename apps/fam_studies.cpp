@@ -1,5 +1,6 @@
 // fam-studies: everything that compares. `fam-studies --help` and README.md say more.
 #include "apps/solve_command.h"
+#include "studies/benchmarks.h"
 #include "studies/exact_method.h"
 #include "studies/fam_method.h"
 #include "studies/fe_verification.h"
@@ -44,8 +45,10 @@ int main(int argc, char** argv) {
 
   studies::StudyOptions options;
   options.cases = STUDY_CASES_DIR;
+  options.data = STUDY_DATA_DIR;
   const std::vector<std::pair<std::string, std::function<void(const studies::StudyOptions&)>>> studies = {
       {"study1", studies::study1},
+      {"benchmarks", studies::benchmarks},
       {"fe-verification", studies::fe_verification},
       {"segmentation", studies::segmentation},
       {"torsion", studies::torsion},
@@ -56,6 +59,7 @@ int main(int argc, char** argv) {
     if (command == solve) continue;
     command->add_option("--output", options.output, "Folder to write to (default: results)");
     command->add_option("--cases", options.cases, "Folder of the scene files (default: the project's studies/cases)");
+    command->add_option("--data", options.data, "Folder of the published numbers (default: the project's tests/data)");
     command->add_flag("--quick", options.quick, "The smallest setting that still runs every line");
   }
 

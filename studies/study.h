@@ -12,6 +12,7 @@ namespace studies {
 struct StudyOptions {
   std::filesystem::path output = "results";  // each study writes a folder of its own in it
   std::filesystem::path cases;               // folder of the scene files
+  std::filesystem::path data;                // folder of the published numbers
   bool quick = false;                        // the smallest setting that still runs every line
 };
 
