@@ -135,6 +135,15 @@ void add_tangent(const ReferenceElement& reference, double length, int g, const 
 
 }  // namespace
 
+ElementState state_of_element(const BeamModel& model, const BeamState& state, std::size_t e) {
+  const auto nodes = static_cast<std::size_t>(model.reference.nodes());
+  const auto points = static_cast<std::size_t>(model.reference.points());
+  const std::size_t first_node = e * (nodes - 1);
+  return {{&state.position_B[first_node], nodes},
+          {&state.rotation_BS[first_node], nodes},
+          {&state.force_S[e * points], points}};
+}
+
 void element_system(const ReferenceElement& reference, const ElementData& data, const ElementState& state,
                     double load_factor, ElementSystem& system) {
   const int size = 6 * reference.nodes() + 3 * reference.points();

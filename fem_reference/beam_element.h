@@ -31,6 +31,9 @@ struct ElementState {
   std::span<const Eigen::Vector3d> force_S;
 };
 
+// Element e's part of the rod's state, which must outlive it.
+ElementState state_of_element(const BeamModel& model, const BeamState& state, std::size_t e);
+
 // Internal minus external force of an element under load_factor times its loads, and its derivative by the unknowns.
 void element_system(const ReferenceElement& reference, const ElementData& data, const ElementState& state,
                     double load_factor, ElementSystem& system);

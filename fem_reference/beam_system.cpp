@@ -131,13 +131,7 @@ void BeamSystem::Implementation::make_matrix() {
 }
 
 void BeamSystem::Implementation::add_element(std::size_t e, const BeamState& state, double load_factor) {
-  const auto nodes = static_cast<std::size_t>(model.reference.nodes());
-  const auto points = static_cast<std::size_t>(model.reference.points());
-  const std::size_t first_node = e * (nodes - 1);
-  const ElementState of_element{{&state.position_B[first_node], nodes},
-                                {&state.rotation_BS[first_node], nodes},
-                                {&state.force_S[e * points], points}};
-  element_system(model.reference, model.elements[e], of_element, load_factor, element);
+  element_system(model.reference, model.elements[e], state_of_element(model, state, e), load_factor, element);
   if (e == 0) clamp_residual = element.residual.head<6>();
 
   const std::vector<Index>& unknowns = element_unknowns[e];

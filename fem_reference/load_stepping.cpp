@@ -1,5 +1,7 @@
 #include "fem_reference/load_stepping.h"
 
+#include "fem_reference/stability.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,12 +11,13 @@ namespace fem_reference {
 
 namespace {
 
-enum class Outcome { converged, turned_too_far, stalled, singular, not_finite };
+enum class Outcome { converged, turned_too_far, lost_stability, stalled, singular, not_finite };
 
 const char* reason(Outcome outcome) {
   switch (outcome) {
     case Outcome::converged: return "converged";
     case Outcome::turned_too_far: return "a node turns too far in one step";
+    case Outcome::lost_stability: return "the equilibrium is unstable";
     case Outcome::stalled: return "Newton's iteration does not converge";
     case Outcome::singular: return "the tangent is singular";
     case Outcome::not_finite: return "a value is not finite";
@@ -36,9 +39,10 @@ struct Attempt {
   Residual residual;
 };
 
-// Newton's iteration at one load factor; `state` holds the predictor and then the result.
-Attempt iterate(BeamSystem& system, const BeamState& start, BeamState& state, double load_factor,
-                const SteppingOptions& options) {
+// Newton's iteration at one load factor; `state` holds the predictor and then the result. `watched` gives up at the
+// first iterate that is not stable.
+Attempt iterate(BeamSystem& system, const BeamModel& model, const BeamState& start, BeamState& state,
+                double load_factor, bool watched, const SteppingOptions& options) {
   Attempt attempt;
   BeamIncrement increment;
   bool small_increment = false;
@@ -54,6 +58,10 @@ Attempt iterate(BeamSystem& system, const BeamState& start, BeamState& state, do
     // Before convergence the bound is wider: an iterate may overshoot and come back.
     if (attempt.rotation_rad > (converged ? 1.0 : 1.5) * options.largest_rotation_rad) {
       attempt.outcome = Outcome::turned_too_far;
+      return attempt;
+    }
+    if (watched && is_stable(model, state, load_factor) == false) {
+      attempt.outcome = Outcome::lost_stability;
       return attempt;
     }
     if (converged || attempt.iterations == options.max_newton_iterations) {
@@ -94,7 +102,12 @@ std::string failure_message(double load_factor, double step, const Attempt& atte
 class Stepping {
  public:
   Stepping(const BeamModel& model, const SteppingOptions& options)
-      : options_(options), system_(model), state_(rest_state(model)), step_(options.initial_load_step) {
+      : model_(model),
+        options_(options),
+        conservative_(is_conservative(model)),
+        system_(model),
+        state_(rest_state(model)),
+        step_(options.initial_load_step) {
     for (const ElementData& element : model.elements) curved_ = curved_ || !element.rest_curvature.isZero(0);
   }
 
@@ -130,9 +143,10 @@ class Stepping {
     const double step = target - load_factor_;
     // Secant predictor: the last accepted step goes on.
     if (last_step_ > 0) advance(trial, last_increment_, step / last_step_);
-    last_ = iterate(system_, state_, trial, target, options_);
+    last_ = iterate(system_, model_, state_, trial, target, is_watched(step), options_);
     result_.newton_iterations += last_.iterations;
     if (last_.outcome != Outcome::converged) return false;
+    if (conservative_) result_.stable = is_stable(model_, trial, target);
     if (step > 0) {
       ++result_.load_steps;
       last_increment_ = difference(state_, trial);
@@ -143,13 +157,21 @@ class Stepping {
     return true;
   }
 
+  // Whether a step may not lose stability: it has it, and can be halved.
+  bool is_watched(double step) const {
+    const double smallest = std::max(options_.smallest_bifurcation_step, 2 * options_.smallest_load_step);
+    return conservative_ && result_.stable != false && step > smallest;
+  }
+
   SteppingResult failed(scene::Status status, double step) {
     result_.status = status;
     result_.message = failure_message(load_factor_, step, last_);
     return std::move(result_);
   }
 
+  const BeamModel& model_;
   const SteppingOptions& options_;
+  const bool conservative_;
   BeamSystem system_;
   BeamState state_;
   bool curved_ = false;

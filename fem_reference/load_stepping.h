@@ -4,6 +4,7 @@
 #include "fem_reference/beam_system.h"
 #include "scene/equilibrium.h"
 
+#include <optional>
 #include <string>
 
 namespace fem_reference {
@@ -15,6 +16,7 @@ struct SteppingOptions {
   int max_newton_iterations = 15;
   double largest_rotation_rad = 0.6;  // of any node in a step
   double tolerance = 1e-10;
+  double smallest_bifurcation_step = 1e-5;
 };
 
 // state, clamp force and moment (dimensionless, exerted by the wall on the rod) only when the status is `converged`.
@@ -24,8 +26,9 @@ struct SteppingResult {
   BeamState state;
   Eigen::Vector3d clamp_force_B;
   Eigen::Vector3d clamp_moment_B;
-  int load_steps = 0;         // accepted
-  int newton_iterations = 0;  // all, those of rejected steps included
+  std::optional<bool> stable;  // stability.h; empty where the loads are not conservative, and where it is neutral
+  int load_steps = 0;          // accepted
+  int newton_iterations = 0;   // all, those of rejected steps included
 };
 
 // From the rest shape to the full load, along the path of equilibria.
@@ -35,6 +38,10 @@ struct SteppingResult {
 //   largest residual <= tolerance F, with F = max(1, largest internal force) in EI / L^2, and
 //   no node has turned by more than largest_rotation_rad in the step,
 // the last of which keeps Newton from reaching another branch of equilibria, where the residual vanishes as well.
+// Beside a buckling load the branches lie too close for that. So where the loads are conservative, a step from a stable
+// equilibrium to one that is not is halved too, down to smallest_bifurcation_step (or smallest_load_step), where it is
+// accepted: a rod whose symmetry nothing breaks stays on its branch. A jump from one stable branch to another beside it
+// goes unseen.
 SteppingResult step_to_full_load(const BeamModel& model, const SteppingOptions& options);
 
 }  // namespace fem_reference

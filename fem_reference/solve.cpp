@@ -66,15 +66,11 @@ std::vector<scene::Station> stations(const std::vector<scene::Span>& spans, cons
 
 // What a converged solution of the equations needs to be a rod; empty if it is one.
 std::string defect(const BeamModel& model, const BeamState& state) {
-  const auto nodes = static_cast<std::size_t>(model.reference.nodes());
-  const auto points = static_cast<std::size_t>(model.reference.points());
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
-    const std::size_t first = e * (nodes - 1);
-    if (state.rotation_BS[first].dot(state.rotation_BS[first + nodes - 1]) <= 0) {
+    const ElementState element = state_of_element(model, state, e);
+    if (element.rotation_BS.front().dot(element.rotation_BS.back()) <= 0) {
       return "element " + std::to_string(e) + " turns by pi or more: the mesh is too coarse";
     }
-    const ElementState element{
-        {&state.position_B[first], nodes}, {&state.rotation_BS[first], nodes}, {&state.force_S[e * points], points}};
     for (int g = 0; g < model.reference.points(); ++g) {
       if (element_strain(model.reference, model.elements[e], element, g).v[0] <= 0) {
         return "element " + std::to_string(e) + " is compressed to nothing (1 + stretch <= 0)";
@@ -103,6 +99,7 @@ scene::Equilibrium equilibrium(const std::vector<scene::Span>& spans, const std:
   }
   equilibrium.stations = stations(spans, cells, model, result.state);
   equilibrium.tip_angle_rad = scene::total_angle_rad(equilibrium.stations);
+  equilibrium.stable = result.stable;
   // The wall pushes back with what the rod's first section carries; the tendons run through the clamp.
   const ElementData& first = model.elements.front();
   equilibrium.base_force_B_N = (first.tendon_force_S - result.clamp_force_B) * model.force_unit_N;

@@ -30,11 +30,14 @@ struct Options {
   double tolerance = 1e-10;           // on Newton increments (lengths over L, rad) and residuals; load_stepping.h
 };
 
-// The equilibrium that the rod reaches when its loads (tendons included) grow together from zero.
+// The equilibrium that the rod reaches when its loads (tendons included) grow together from zero; beside a buckling
+// load the stable one, unless a perfect symmetry holds the rod on the unstable one (load_stepping.h).
 //
 // stations: all nodes, elements * order + 1 or more. error_estimate_mm: from the two meshes (NaN if the second solve
-// fails, 0 if not asked for). stable: empty. Facts: elements, order, integration, model, load_steps,
-// newton_iterations, of the main solve.
+// fails, 0 if not asked for). stable: under fixed forces, distributed fixed forces, gravity and tendons alone, by the
+// tangent (stability.h) of the discrete rod, whose critical loads have an error as well; empty under any other load
+// and where it is neutral. Facts: elements, order, integration, model, load_steps, newton_iterations, of the main
+// solve.
 //
 // Status load_step_too_small: the load step fell below smallest_load_step. not_finite: the same, and the last attempt
 // met a value that is not finite. not_converged: max_load_steps used up; or an element turns by pi or more from end to

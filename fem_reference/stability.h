@@ -1,0 +1,27 @@
+// Whether an equilibrium is a minimum of the potential energy, by the tangent of its elements.
+//
+// For conservative loads the tangent of beam_element.h, symmetrised, is the Hessian of the saddle functional, and the
+// energy's own Hessian is what is left of it when the internal forces n are eliminated. Elimination runs element by
+// element from the tip to the clamp; Sylvester's law adds up the signs of the pivots.
+// - Displacements and n of an element go first. Moving the distal rod without turning it costs no energy under dead
+//   loads, so their pivot block is [0 B^T; B -C] with B of full rank, whatever the state and where C = 0 too: one
+//   negative pivot for each number of n, as many as its elimination takes away. Nothing is to be counted.
+// - What is left acts on the rotations: 3x3 blocks along the rod, positive definite exactly at a minimum.
+// Cost: an assembly, without the factorisation of the whole.
+#pragma once
+
+#include "fem_reference/beam_model.h"
+
+#include <optional>
+
+namespace fem_reference {
+
+// No load but fixed forces, point or distributed, and tendons. Loads that cancel at a place do not count.
+bool is_conservative(const BeamModel& model);
+
+// True: minimum, stable. False: the energy falls in some direction. Empty: neutral within round-off, which is a load
+// within about 5e-15 (L / shortest element)^2 of critical. `state` must be an equilibrium of a conservative model under
+// load_factor times its loads.
+std::optional<bool> is_stable(const BeamModel& model, const BeamState& state, double load_factor);
+
+}  // namespace fem_reference
