@@ -3,6 +3,7 @@
 #include "exact_reference/solve.h"
 #include "fam/dual.h"
 #include "fam/solve.h"
+#include "scene/scene_file.h"
 #include "support.h"
 
 #include <gtest/gtest.h>
@@ -220,6 +221,17 @@ TEST(BoundaryValue, OneSegmentSolvesWithoutAllocating) {
   EXPECT_LT((std::get<fam::BoundaryValue>(*solver).poses().back().position_B_mm - Vector3d(33.03110716, 20.47065732, 0))
                 .norm(),
             2e-4);
+}
+
+// Study II: the catheter under three contact forces, without and with gravity.
+TEST(BoundaryValue, GatesOfStudy2) {
+  const double limit_mm = 2e-6;
+  for (const char* name : {"study2", "study2_gravity_y", "study2_gravity_z"}) {
+    const scene::Scene scene = scene::read_scene_file(std::string(STUDY_CASES_DIR) + "/" + name + ".json");
+    const scene::Equilibrium exact = exact_reference::solve(scene);
+    EXPECT_LT(distance_mm(solved(scene, 1e-6), exact), limit_mm) << name;
+    EXPECT_GT(distance_mm(solved(support::stiffer(scene), 1e-6), exact), limit_mm) << name;
+  }
 }
 
 // A thousand fixed forces on one rod.
