@@ -249,7 +249,7 @@ DigitSummary digit_summary(const BenchmarkResult& result, const std::string& sou
   if (digits.empty()) return s;
   std::sort(digits.begin(), digits.end());
   s.lowest = digits.front();
-  s.median = digits[(digits.size() - 1) / 2];
+  s.median = (digits[(digits.size() - 1) / 2] + digits[digits.size() / 2]) / 2;
   return s;
 }
 

@@ -72,7 +72,7 @@ and we cannot explain.
       {"pazy",
        R"(A wing of 0.55 m with masses hung at its tip, deflected to half its span: the one measurement here. The rod is the
 published stiffness table (bending and torsion of 15 sections, couplings left out) with the weights of its nodes. The
-table itself is 6 to 8 % stiffer than the wing, and UM/NAST and Nastran are off as much: **this tests the model's form,
+table itself is off the wing by up to 8 % (mostly stiffer), and UM/NAST and Nastran are off as much: **this tests the model's form,
 not arithmetic**. With the skin, measured points jump by 5 % between 0.8 and 1.0 kg. Deflections are beyond those under
 the wing's own weight.
 )"},
