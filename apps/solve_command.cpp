@@ -55,7 +55,8 @@ CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments) {
                        {{"auto", fam::Law::automatic},
                         {"published", fam::Law::published},
                         {"midpoint", fam::Law::midpoint},
-                        {"fourth_order", fam::Law::fourth_order}});
+                        {"fourth_order", fam::Law::fourth_order},
+                        {"sixth_order", fam::Law::sixth_order}});
   add_choice<fam::RodModel>(solve, "--model", options.model, "Rod model",
                             {{"auto", fam::RodModel::automatic},
                              {"kirchhoff", fam::RodModel::kirchhoff},

@@ -9,11 +9,13 @@ namespace fam {
 
 // Twist about the tangent (only the published law splits it off; the coupled laws carry it in the screw), then the
 // screw, then twist again.
-struct Arc {
-  Screw screw;
+template <int D>
+struct BasicArc {
+  BasicScrew<double, D> screw;
   double twist_before_rad = 0;
   double twist_after_rad = 0;
 };
+using Arc = BasicArc<3>;
 
 // Pose on the arc at a fraction in [0, 1] of its length, from the pose at its proximal end.
 SectionPose pose_on(const Arc& arc, const SectionPose& proximal, double fraction);

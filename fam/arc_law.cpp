@@ -39,25 +39,32 @@ Residual moment_residual(const PlaneLoad& load, double angle) {
 
 }  // namespace
 
-ArcConstants arc_constants(const scene::Span& span, int arcs, RodModel model, double load_factor) {
+template <int D>
+BasicArcConstants<D> arc_constants(const scene::Span& span, int arcs, RodModel model, double load_factor) {
   const scene::Stiffness& stiffness = span.stiffness;
   const double h = span.length_mm() / arcs;
-  const auto compliance = [h](double stiffness_value) { return h / stiffness_value; };
+  const Vector3d bending_and_torsion(stiffness.torsion_Nmm2, stiffness.bending_Nmm2[0], stiffness.bending_Nmm2[1]);
 
-  ArcConstants arc;
+  BasicArcConstants<D> arc;
   arc.length_mm = h;
-  arc.angular_compliance = {compliance(stiffness.torsion_Nmm2), compliance(stiffness.bending_Nmm2[0]),
-                            compliance(stiffness.bending_Nmm2[1])};
+  arc.angular_compliance = h * turn_in_space_or_plane<D>(bending_and_torsion.cwiseInverse());
   arc.rest_rotation =
-      h * span.rest_curvature_per_mm + load_factor * arc.angular_compliance.cwiseProduct(span.tendon_S.moment_Nmm);
-  arc.rest_translation_mm = {h, 0, 0};
+      h * turn_in_space_or_plane<D>(span.rest_curvature_per_mm) +
+      load_factor * arc.angular_compliance.cwiseProduct(turn_in_space_or_plane<D>(span.tendon_S.moment_Nmm));
+  arc.rest_translation_mm[0] = h;
   if (model == RodModel::reissner) {
-    if (stiffness.axial_N) arc.linear_compliance[0] = compliance(*stiffness.axial_N);
-    if (stiffness.shear_N) arc.linear_compliance.tail<2>() = h * stiffness.shear_N->cwiseInverse();
-    arc.rest_translation_mm += load_factor * arc.linear_compliance.cwiseProduct(span.tendon_S.force_N);
+    Vector3d compliance = Vector3d::Zero();
+    if (stiffness.axial_N) compliance[0] = h / *stiffness.axial_N;
+    if (stiffness.shear_N) compliance.tail<2>() = h * stiffness.shear_N->cwiseInverse();
+    arc.linear_compliance = in_space_or_plane<D>(compliance);
+    arc.rest_translation_mm +=
+        load_factor * arc.linear_compliance.cwiseProduct(in_space_or_plane<D>(span.tendon_S.force_N));
   }
   return arc;
 }
+
+template BasicArcConstants<2> arc_constants(const scene::Span&, int, RodModel, double);
+template BasicArcConstants<3> arc_constants(const scene::Span&, int, RodModel, double);
 
 bool published_angle(const PlaneLoad& load, double& angle_rad) {
   double angle = load.moment + load.normal / 2;  // curvature of the straight arc's mean moment

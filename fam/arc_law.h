@@ -4,120 +4,222 @@
 //                scenes, first order in 3D with torsion. Kirchhoff rods with one bending stiffness.
 // midpoint       strain at the wrench carried half an arc towards the clamp. Second order.
 // fourth_order   a Runge-Kutta-Munthe-Kaas step on SE(3) (Munthe-Kaas 1999; Iserles et al., Acta Numerica 2000).
+// sixth_order    the strain's Taylor series at the distal end, summed up by the Magnus expansion of order six (Blanes,
+//                Casas, Ros, BIT 40, 2000). No more dear than fourth_order: the rod equations are quadratic, so that
+//                the series is a recursion of cross products, and the arc takes a single exponential.
 #pragma once
 
 #include "fam/arc.h"
 
 #include "scene/span.h"
 
+#include <array>
+
 namespace fam {
 
-enum class Law { automatic, published, midpoint, fourth_order };
+enum class Law { automatic, published, midpoint, fourth_order, sixth_order };
 
 // Order in which the published law applies bending and twist; the paper does not say.
 enum class TwistOrder { bend_twist, twist_bend };
 
-// What an arc of one span needs to know; products with the arc length h are taken once.
-struct ArcConstants {
-  double length_mm = 0;                             // h
-  Vector3d angular_compliance = Vector3d::Zero();   // h / (GJ, EI_y, EI_z)
-  Vector3d rest_rotation = Vector3d::Zero();        // h (u0 + tendon moment / stiffness)
-  Vector3d linear_compliance = Vector3d::Zero();    // h / (EA, kGA_y, kGA_z); 0 where the section does not give way
-  Vector3d rest_translation_mm = Vector3d::Zero();  // h (e_x + tendon force / stiffness)
+// What an arc of one span needs to know; products with the arc length h are taken once. In the plane (D = 2) the
+// bending is about z.
+template <int D>
+struct BasicArcConstants {
+  double length_mm = 0;                                               // h
+  Turn<double, D> angular_compliance = Turn<double, D>::Zero();       // h / (GJ, EI_y, EI_z)
+  Turn<double, D> rest_rotation = Turn<double, D>::Zero();            // h (u0 + tendon moment / stiffness)
+  Vector<double, D> linear_compliance = Vector<double, D>::Zero();    // h / (EA, kGA_y, kGA_z); 0: does not give way
+  Vector<double, D> rest_translation_mm = Vector<double, D>::Zero();  // h (e_x + tendon force / stiffness)
 };
+using ArcConstants = BasicArcConstants<3>;
+
+// The components of a vector in space, or of a turn, that a rod in the x-y plane has.
+template <int D>
+Vector<double, D> in_space_or_plane(const Vector3d& v) {
+  return v.head<D>();
+}
+template <int D>
+Turn<double, D> turn_in_space_or_plane(const Vector3d& w) {
+  return w.tail<turns_of(D)>();
+}
 
 enum class RodModel { automatic, kirchhoff, reissner };
 
 // Constants of the arcs of a span that is cut into `arcs`; the tendons' tension is multiplied by load_factor.
-ArcConstants arc_constants(const scene::Span& span, int arcs, RodModel model, double load_factor = 1);
+template <int D = 3>
+BasicArcConstants<D> arc_constants(const scene::Span& span, int arcs, RodModel model, double load_factor = 1);
 
 // Strain times h under a wrench; the Kirchhoff rod keeps the rest translation.
-template <bool with_shear, class T>
-BasicScrew<T> strain(const ArcConstants& arc, const BasicWrench<T>& wrench) {
-  BasicScrew<T> screw{arc.rest_rotation.cast<T>() + arc.angular_compliance.cast<T>().cwiseProduct(wrench.moment_Nmm),
-                      arc.rest_translation_mm.cast<T>()};
+template <bool with_shear, class T, int D>
+BasicScrew<T, D> strain(const BasicArcConstants<D>& arc, const BasicWrench<T, D>& wrench) {
+  BasicScrew<T, D> screw{
+      arc.rest_rotation.template cast<T>() + arc.angular_compliance.template cast<T>().cwiseProduct(wrench.moment_Nmm),
+      arc.rest_translation_mm.template cast<T>()};
   if constexpr (with_shear) {
-    screw.translation_mm += arc.linear_compliance.cast<T>().cwiseProduct(wrench.force_N);
+    screw.translation_mm += arc.linear_compliance.template cast<T>().cwiseProduct(wrench.force_N);
   }
   return screw;
 }
 
-// The laws below set the arc's screw, carry the wrench from its distal to its proximal end and return the arc's motion.
-
-template <bool with_shear, class T>
-BasicMotion<T> midpoint_step(const ArcConstants& arc, BasicWrench<T>& wrench, BasicScrew<T>& screw) {
-  const BasicScrew<T> k1 = strain<with_shear>(arc, wrench);
-  screw = strain<with_shear>(arc, transport(exponential(0.5 * k1), wrench));
-  const BasicMotion<T> motion = exponential(screw);
-  wrench = transport(motion, wrench);
-  return motion;
-}
-
-template <class T>
-BasicScrew<T> fourth_order_sum(const BasicScrew<T>& k1, const BasicScrew<T>& k2, const BasicScrew<T>& k3,
-                               const BasicScrew<T>& k4) {
-  return (1 / 6.) * (k1 + 2.0 * (k2 + k3) + k4) + (-1 / 12.) * bracket(k1, k4);
-}
-
-template <bool with_shear, class T>
-BasicMotion<T> fourth_order_step(const ArcConstants& arc, BasicWrench<T>& wrench, BasicScrew<T>& screw) {
-  const BasicScrew<T> k1 = strain<with_shear>(arc, wrench);
-  const BasicScrew<T> k2 = strain<with_shear>(arc, transport(exponential(0.5 * k1), wrench));
-  const BasicScrew<T> k3 =
-      strain<with_shear>(arc, transport(exponential(0.5 * k2 + (-1 / 8.) * bracket(k1, k2)), wrench));
-  const BasicScrew<T> k4 = strain<with_shear>(arc, transport(exponential(k3), wrench));
-  screw = fourth_order_sum(k1, k2, k3, k4);
-  const BasicMotion<T> motion = exponential(screw);
-  wrench = transport(motion, wrench);
-  return motion;
-}
-
 // Distributed forces on an arc, times h. Both are constant along it: one in the section frame, one in the base frame,
 // of which the components in the arc's distal frame D are known when the arc is met.
-template <class T>
+template <class T, int D>
 struct ArcForces {
-  Vector3<T> follower_S_N, fixed_D_N;
+  Vector<T, D> follower_S_N, fixed_D_N;
 };
 
+// The laws below set the arc's screw, carry the wrench from its distal to its proximal end and return the arc's motion.
+// Without distributed forces (the null pointer) the wrench is carried exactly, whatever the strain.
+//
 // Under distributed forces the wrench, carried back to the distal frame, grows along the arc: its derivative is the
-// force and the force's moment about the distal end. Screw and growth are advanced together by the same Runge-Kutta
+// force and the force's moment about the distal end. The Runge-Kutta laws advance screw and growth together by the same
 // steps, on the group SE(3) x R^6.
-template <class T>
-BasicWrench<T> growth(const ArcForces<T>& forces, const BasicMotion<T>& motion) {
-  const Vector3<T> force = forces.fixed_D_N + motion.rotate_back(forces.follower_S_N);
-  return {force, -motion.rotate_back(motion.position_mm).cross(force)};
+template <class T, int D>
+BasicWrench<T, D> growth(const ArcForces<T, D>& forces, const BasicMotion<T, D>& motion) {
+  const Vector<T, D> force = forces.fixed_D_N + motion.rotate_back(forces.follower_S_N);
+  return {force, -arm_cross(motion.rotate_back(motion.position_mm), force)};
 }
 
-template <bool with_shear, class T>
-BasicMotion<T> midpoint_step(const ArcConstants& arc, const ArcForces<T>& forces, BasicWrench<T>& wrench,
-                             BasicScrew<T>& screw) {
-  const BasicScrew<T> k1 = strain<with_shear>(arc, wrench);
-  const BasicWrench<T> l1 = growth(forces, exponential(BasicScrew<T>{}));
-  const BasicMotion<T> half = exponential(0.5 * k1);
-  screw = strain<with_shear>(arc, transport(half, wrench + 0.5 * l1));
-  const BasicMotion<T> motion = exponential(screw);
-  wrench = transport(motion, wrench + growth(forces, half));
+template <bool with_shear, class T, int D>
+BasicMotion<T, D> midpoint_step(const BasicArcConstants<D>& arc, const ArcForces<T, D>* forces,
+                                BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw) {
+  const BasicScrew<T, D> k1 = strain<with_shear>(arc, wrench);
+  const BasicMotion<T, D> half = exponential(0.5 * k1);
+  BasicWrench<T, D> middle = wrench;
+  if (forces) {
+    middle = wrench + 0.5 * growth(*forces, exponential(BasicScrew<T, D>{}));
+    wrench = wrench + growth(*forces, half);
+  }
+  screw = strain<with_shear>(arc, transport(half, middle));
+  const BasicMotion<T, D> motion = exponential(screw);
+  wrench = transport(motion, wrench);
   return motion;
 }
 
-template <bool with_shear, class T>
-BasicMotion<T> fourth_order_step(const ArcConstants& arc, const ArcForces<T>& forces, BasicWrench<T>& wrench,
-                                 BasicScrew<T>& screw) {
-  const BasicScrew<T> k1 = strain<with_shear>(arc, wrench);
-  const BasicWrench<T> l1 = growth(forces, exponential(BasicScrew<T>{}));
-  const BasicMotion<T> to2 = exponential(0.5 * k1);
-  const BasicScrew<T> k2 = strain<with_shear>(arc, transport(to2, wrench + 0.5 * l1));
-  const BasicWrench<T> l2 = growth(forces, to2);
-  const BasicMotion<T> to3 = exponential(0.5 * k2 + (-1 / 8.) * bracket(k1, k2));
-  const BasicScrew<T> k3 = strain<with_shear>(arc, transport(to3, wrench + 0.5 * l2));
-  const BasicWrench<T> l3 = growth(forces, to3);
-  const BasicMotion<T> to4 = exponential(k3);
-  const BasicScrew<T> k4 = strain<with_shear>(arc, transport(to4, wrench + l3));
-  const BasicWrench<T> l4 = growth(forces, to4);
-  screw = fourth_order_sum(k1, k2, k3, k4);
-  const BasicMotion<T> motion = exponential(screw);
-  wrench = transport(motion, wrench + (1 / 6.) * (l1 + 2.0 * (l2 + l3) + l4));
+template <bool with_shear, class T, int D>
+BasicMotion<T, D> fourth_order_step(const BasicArcConstants<D>& arc, const ArcForces<T, D>* forces,
+                                    BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw) {
+  const auto grow = [&](double factor, const BasicMotion<T, D>& motion, BasicWrench<T, D>& growth_here) {
+    if (!forces) return wrench;
+    growth_here = growth(*forces, motion);
+    return wrench + factor * growth_here;
+  };
+  BasicWrench<T, D> l1, l2, l3, l4;
+  const BasicScrew<T, D> k1 = strain<with_shear>(arc, wrench);
+  const BasicMotion<T, D> to2 = exponential(0.5 * k1);
+  const BasicScrew<T, D> k2 = strain<with_shear>(arc, transport(to2, grow(0.5, exponential(BasicScrew<T, D>{}), l1)));
+  const BasicMotion<T, D> to3 = exponential(0.5 * k2 + (-1 / 8.) * bracket(k1, k2));
+  const BasicScrew<T, D> k3 = strain<with_shear>(arc, transport(to3, grow(0.5, to2, l2)));
+  const BasicMotion<T, D> to4 = exponential(k3);
+  const BasicScrew<T, D> k4 = strain<with_shear>(arc, transport(to4, grow(1, to3, l3)));
+  screw = (1 / 6.) * (k1 + 2.0 * (k2 + k3) + k4) + (-1 / 12.) * bracket(k1, k4);
+  const BasicMotion<T, D> motion = exponential(screw);
+  if (forces) {
+    l4 = growth(*forces, to4);
+    wrench = wrench + (1 / 6.) * (l1 + 2.0 * (l2 + l3) + l4);
+  }
+  wrench = transport(motion, wrench);
   return motion;
+}
+
+// Taylor series about the distal end, from there to the proximal end, of strain and wrench; coefficients times h^k (the
+// strain's times h once more).
+template <class T, int D, std::size_t terms>
+struct RodSeries {
+  std::array<Turn<T, D>, terms> rotation, moment_Nmm;
+  std::array<Vector<T, D>, terms> translation_mm, force_N;
+};
+
+// n' = u x n + f, m' = u x m + v x n, f' = u x f for the force fixed in space (primes towards the proximal end).
+template <bool with_shear, std::size_t terms, class T, int D>
+RodSeries<T, D, terms> rod_series(const BasicArcConstants<D>& arc, const ArcForces<T, D>* forces,
+                                  const BasicWrench<T, D>& wrench) {
+  RodSeries<T, D, terms> s;
+  std::array<Vector<T, D>, terms> fixed_N;
+  s.force_N[0] = wrench.force_N;
+  s.moment_Nmm[0] = wrench.moment_Nmm;
+  if (forces) fixed_N[0] = forces->fixed_D_N;
+  const BasicScrew<T, D> first = strain<with_shear>(arc, wrench);
+  s.rotation[0] = first.rotation;
+  s.translation_mm[0] = first.translation_mm;
+#pragma GCC unroll 8
+  for (std::size_t k = 0; k + 1 < terms; ++k) {
+    Vector<T, D> force = cross(s.rotation[0], s.force_N[k]);
+    Turn<T, D> moment = cross(s.rotation[0], s.moment_Nmm[k]) + arm_cross(s.translation_mm[0], s.force_N[k]);
+#pragma GCC unroll 8
+    for (std::size_t j = 1; j <= k; ++j) {
+      force += cross(s.rotation[j], s.force_N[k - j]);
+      moment += cross(s.rotation[j], s.moment_Nmm[k - j]);
+      if constexpr (with_shear) moment += arm_cross(s.translation_mm[j], s.force_N[k - j]);
+    }
+    const T share = T(1.0 / static_cast<double>(k + 1));
+    if (forces) {
+      force += fixed_N[k];
+      if (k == 0) force += forces->follower_S_N;
+      Vector<T, D> fixed = cross(s.rotation[0], fixed_N[k]);
+      for (std::size_t j = 1; j <= k; ++j) fixed += cross(s.rotation[j], fixed_N[k - j]);
+      fixed_N[k + 1] = share * fixed;
+    }
+    s.force_N[k + 1] = share * force;
+    s.moment_Nmm[k + 1] = share * moment;
+    s.rotation[k + 1] = arc.angular_compliance.template cast<T>().cwiseProduct(s.moment_Nmm[k + 1]);
+    if constexpr (with_shear) {
+      s.translation_mm[k + 1] = arc.linear_compliance.template cast<T>().cwiseProduct(s.force_N[k + 1]);
+    }
+  }
+  return s;
+}
+
+// Sum of the coefficients from `from` on times weights.
+template <class V, std::size_t terms, std::size_t count>
+V weighted(const std::array<V, terms>& c, const std::array<double, count>& weights, std::size_t from = 0) {
+  using T = typename V::Scalar;
+  V sum = T(weights[0]) * c[from];
+#pragma GCC unroll 8
+  for (std::size_t k = 1; k < count; ++k) sum += T(weights[k]) * c[from + k];
+  return sum;
+}
+
+// With t from the middle of the arc towards its distal end, in arc lengths: the strain's integral over the arc, and the
+// a1 + a2 t + a3 t^2 that goes through the series at the three Gauss points. Weights of the series' coefficients; those
+// of a2 start with the second, those of a3 with the third.
+constexpr std::array<double, 6> strain_weights{1, 1 / 2., 1 / 3., 1 / 4., 1 / 5., 1 / 6.};
+constexpr std::array<double, 6> a1_weights{1, 1 / 2., 1 / 4., 1 / 8., 1 / 16., 1 / 32.};
+constexpr std::array<double, 5> a2_weights{-1, -1, -0.9, -0.8, -0.71};
+constexpr std::array<double, 4> a3_weights{1, 1.5, 1.65, 1.625};
+
+template <bool with_shear, std::size_t terms, class T, int D>
+BasicScrew<T, D> magnus(const RodSeries<T, D, terms>& s) {
+  BasicScrew<T, D> integral{weighted(s.rotation, strain_weights), s.translation_mm[0]};
+  BasicScrew<T, D> a1{weighted(s.rotation, a1_weights), s.translation_mm[0]};
+  BasicScrew<T, D> a2{weighted(s.rotation, a2_weights, 1), Vector<T, D>::Zero()};
+  BasicScrew<T, D> a3{weighted(s.rotation, a3_weights, 2), Vector<T, D>::Zero()};
+  if constexpr (with_shear) {
+    integral.translation_mm = weighted(s.translation_mm, strain_weights);
+    a1.translation_mm = weighted(s.translation_mm, a1_weights);
+    a2.translation_mm = weighted(s.translation_mm, a2_weights, 1);
+    a3.translation_mm = weighted(s.translation_mm, a3_weights, 2);
+  }
+  const BasicScrew<T, D> b = bracket(a1, a2);
+  return integral + (1 / 12.) * b + bracket(a1, bracket(a1, (1 / 360.) * a3 + (-1 / 720.) * b)) +
+         bracket(a2, (-1 / 240.) * (a3 + b));
+}
+
+template <bool with_shear, class T, int D>
+BasicMotion<T, D> sixth_order_step(const BasicArcConstants<D>& arc, const ArcForces<T, D>* forces,
+                                   BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw) {
+  if (!forces) {
+    screw = magnus<with_shear>(rod_series<with_shear, 6>(arc, forces, wrench));
+    const BasicMotion<T, D> motion = exponential(screw);
+    wrench = transport(motion, wrench);
+    return motion;
+  }
+  const RodSeries<T, D, 7> s = rod_series<with_shear, 7>(arc, forces, wrench);
+  screw = magnus<with_shear>(s);
+  constexpr std::array<double, 7> ones{1, 1, 1, 1, 1, 1, 1};
+  wrench = {weighted(s.force_N, ones), weighted(s.moment_Nmm, ones)};
+  return exponential(screw);
 }
 
 // Bending angle of the published law in its plane, all quantities made dimensionless with h and EI: the root of

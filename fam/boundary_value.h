@@ -39,21 +39,25 @@ constexpr int max_newton_steps = 20;
 // EI/L^2. The expectation is the step squared after fresh derivatives, else the step times the last shrinkage.
 constexpr double tightest_newton_tolerance = 1e-13;
 
-class BoundaryValue {
+// In space, D = 3, or for rods in the x-y plane, D = 2 (spans with nothing out of it): 1 unknown, 4 more with each
+// further segment. A planar rod may still buckle out of its plane, so its stability is judged in space all the same.
+template <int D>
+class BasicBoundaryValue {
  public:
-  // Law midpoint or fourth_order; every kind of load. Throws nothing but std::bad_alloc.
-  BoundaryValue(std::span<const scene::Span> spans, std::span<const int> arcs_per_span, Law law, RodModel model,
-                double newton_tolerance = tightest_newton_tolerance);
+  // Any law but published; every kind of load. Throws nothing but std::bad_alloc.
+  BasicBoundaryValue(std::span<const scene::Span> spans, std::span<const int> arcs_per_span, Law law, RodModel model,
+                     double newton_tolerance = tightest_newton_tolerance);
 
   // From no load to the full load. converged, load_step_too_small, not_converged or not_finite; message() says why.
   scene::Status run();
-  // The full load, starting from the solution with half the arcs of the same spans.
-  scene::Status run_from(const BoundaryValue& half_as_many);
+  // The full load, starting from a solution of the same spans; the arcs of both must be multiples of those which it
+  // was first found with.
+  scene::Status run_from(const BasicBoundaryValue& other);
 
   int arc_count() const { return static_cast<int>(arcs_.size()); }
-  const std::vector<Arc>& arcs() const { return arcs_; }
-  const std::vector<SectionPose>& poses() const { return poses_; }
-  const SectionWrench& base_wrench() const { return base_wrench_; }
+  const std::vector<BasicArc<D>>& arcs() const { return arcs_; }
+  const std::vector<BasicPose<D>>& poses() const { return poses_; }
+  const BasicWrench<double, D>& base_wrench() const { return base_wrench_; }
   int segment_count() const { return static_cast<int>(segments_.size()); }
   int load_steps() const { return load_steps_; }
   int newton_steps() const { return newton_steps_; }
@@ -62,17 +66,26 @@ class BoundaryValue {
   // Whether the equilibrium is a minimum of the energy: no conjugate point between the tip and the clamp. Only for
   // fixed forces, gravity and tendons (the caller's to check); empty where a conjugate point lies at the clamp.
   std::optional<bool> stable() const;
+  // Whether the loads are too small for a second equilibrium; then the one found is stable.
+  bool one_equilibrium() const;
 
  private:
+  template <int>
+  friend class BasicBoundaryValue;
+
+  static constexpr int turns = turns_of(D);
+  static constexpr int unknowns = 2 * turns + D;  // of a node: its turn, force and moment; of the tip's its turn alone
+
   template <class T>
   struct State {  // base axes in the section frame, and the wrench there
-    Eigen::Matrix<T, 3, 3> rotation_SB;
-    BasicWrench<T> wrench;
+    Eigen::Matrix<T, D, D> rotation_SB;
+    BasicWrench<T, D> wrench;
   };
+  using Rotation = Eigen::Matrix<double, D, D>;
   struct SpanArcs {
-    ArcConstants constants;
-    SectionWrench follower_load_S, fixed_load_B;   // at the span's distal end, at the current load
-    Vector3d follower_force_S_N, fixed_force_B_N;  // distributed, times the arc length
+    BasicArcConstants<D> constants;
+    BasicWrench<double, D> follower_load_S, fixed_load_B;   // at the span's distal end, at the current load
+    Vector<double, D> follower_force_S_N, fixed_force_B_N;  // distributed, times the arc length
     bool distributed;
     int first_arc, end_arc;
   };
@@ -82,18 +95,19 @@ class BoundaryValue {
   // What a segment's march misses at its proximal end (rotation, force, moment, scaled), its derivatives with respect
   // to the node at the distal end, and that of the rotation with respect to the node arrived at.
   struct SegmentEquations {
-    Eigen::Matrix<double, 9, 1> residual;
-    Eigen::Matrix<double, 9, 9> arrival;
-    Matrix3d mismatch_slope;
+    Eigen::Matrix<double, unknowns, 1> residual;
+    Eigen::Matrix<double, unknowns, unknowns> arrival;
+    Eigen::Matrix<double, turns, turns> mismatch_slope;
   };
 
+  std::optional<bool> stable_in_space() const requires(D == 3);
+  BasicBoundaryValue<3> in_space() const;
   void cut_into_segments();
   void set_load(double factor);
   void start_unloaded();
   std::vector<State<double>> predict(double factor) const;
   bool newton();
   bool newton_one_segment(bool fresh_slope);
-  bool one_equilibrium() const;
   bool solve_at_once();
   bool newton_segments();
   bool grow_load();
@@ -122,15 +136,18 @@ class BoundaryValue {
   std::vector<State<double>> previous_;  // the same at the last load but one
   double factor_ = 0, previous_factor_ = 0;
 
-  Eigen::PartialPivLU<Matrix3d> slope_;    // of one segment
-  std::unique_ptr<BoundaryValue> coarse_;  // a quarter of the arcs, where the full load is solved for at once
+  Eigen::PartialPivLU<Eigen::Matrix<double, turns, turns>> slope_;  // of one segment
+  std::unique_ptr<BasicBoundaryValue> coarse_;  // a quarter of the arcs, where the full load is solved for at once
 
-  std::vector<Arc> arcs_;
-  std::vector<SectionPose> poses_;
-  SectionWrench base_wrench_;
+  std::vector<BasicArc<D>> arcs_;
+  std::vector<BasicMotion<double, D>> motions_;
+  std::vector<BasicPose<D>> poses_;
+  BasicWrench<double, D> base_wrench_;
   int load_steps_ = 0;
   int newton_steps_ = 0;
   std::string message_;
 };
+
+using BoundaryValue = BasicBoundaryValue<3>;
 
 }  // namespace fam

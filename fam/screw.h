@@ -21,47 +21,78 @@ namespace fam {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Everything here is a template on the scalar: double, or a number that carries derivatives along.
+// Everything here is a template on the scalar T: double, or a number that carries derivatives along; and on the
+// dimension D: 3, or 2 for rods in the x-y plane. Forces and positions have D components, turns and moments those about
+// the axes left: three, or the one about z.
 template <class T>
 using Vector3 = Eigen::Matrix<T, 3, 1>;
+template <class T, int D>
+using Vector = Eigen::Matrix<T, D, 1>;
+constexpr int turns_of(int dimension) {
+  return dimension == 3 ? 3 : 1;
+}
+template <class T, int D>
+using Turn = Eigen::Matrix<T, turns_of(D), 1>;
+
+// Cross products: turn x vector, turn x turn (nothing in the plane), and vector x vector, a turn.
+template <class T>
+Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
+  return a.cross(b);
+}
+template <class T>
+Vector<T, 2> cross(const Turn<T, 2>& a, const Vector<T, 2>& b) {
+  return {-a[0] * b[1], a[0] * b[0]};
+}
+template <class T>
+Turn<T, 2> cross(const Turn<T, 2>&, const Turn<T, 2>&) {
+  return Turn<T, 2>::Zero();
+}
+template <class T>
+Vector3<T> arm_cross(const Vector3<T>& a, const Vector3<T>& b) {
+  return a.cross(b);
+}
+template <class T>
+Turn<T, 2> arm_cross(const Vector<T, 2>& a, const Vector<T, 2>& b) {
+  return Turn<T, 2>(a[0] * b[1] - a[1] * b[0]);
+}
 
 // Strain times arc length: rotation vector (rad) and translation (mm), both in the arc's proximal frame.
-template <class T>
+template <class T, int D = 3>
 struct BasicScrew {
-  Vector3<T> rotation = Vector3<T>::Zero();
-  Vector3<T> translation_mm = Vector3<T>::Zero();
+  Turn<T, D> rotation = Turn<T, D>::Zero();
+  Vector<T, D> translation_mm = Vector<T, D>::Zero();
 };
 using Screw = BasicScrew<double>;
 
-template <class T>
-BasicScrew<T> operator+(const BasicScrew<T>& a, const BasicScrew<T>& b) {
+template <class T, int D>
+BasicScrew<T, D> operator+(const BasicScrew<T, D>& a, const BasicScrew<T, D>& b) {
   return {a.rotation + b.rotation, a.translation_mm + b.translation_mm};
 }
-template <class T>
-BasicScrew<T> operator*(double factor, const BasicScrew<T>& a) {
+template <class T, int D>
+BasicScrew<T, D> operator*(double factor, const BasicScrew<T, D>& a) {
   return {a.rotation * T(factor), a.translation_mm * T(factor)};
 }
 
-// Lie bracket of se(3).
-template <class T>
-BasicScrew<T> bracket(const BasicScrew<T>& a, const BasicScrew<T>& b) {
-  return {a.rotation.cross(b.rotation), a.rotation.cross(b.translation_mm) + a.translation_mm.cross(b.rotation)};
+// Lie bracket of se(D).
+template <class T, int D>
+BasicScrew<T, D> bracket(const BasicScrew<T, D>& a, const BasicScrew<T, D>& b) {
+  return {cross(a.rotation, b.rotation), cross(a.rotation, b.translation_mm) - cross(b.rotation, a.translation_mm)};
 }
 
 // Internal force and moment in a section frame.
-template <class T>
+template <class T, int D = 3>
 struct BasicWrench {
-  Vector3<T> force_N = Vector3<T>::Zero();
-  Vector3<T> moment_Nmm = Vector3<T>::Zero();
+  Vector<T, D> force_N = Vector<T, D>::Zero();
+  Turn<T, D> moment_Nmm = Turn<T, D>::Zero();
 };
 using SectionWrench = BasicWrench<double>;
 
-template <class T>
-BasicWrench<T> operator+(const BasicWrench<T>& a, const BasicWrench<T>& b) {
+template <class T, int D>
+BasicWrench<T, D> operator+(const BasicWrench<T, D>& a, const BasicWrench<T, D>& b) {
   return {a.force_N + b.force_N, a.moment_Nmm + b.moment_Nmm};
 }
-template <class T>
-BasicWrench<T> operator*(double factor, const BasicWrench<T>& a) {
+template <class T, int D>
+BasicWrench<T, D> operator*(double factor, const BasicWrench<T, D>& a) {
   return {a.force_N * T(factor), a.moment_Nmm * T(factor)};
 }
 
@@ -95,31 +126,36 @@ BasicCoefficients<T> screw_coefficients(const T& angle_squared) {
 
 // exp of a screw, kept as increments to the identity so that products of many small ones do not lose digits:
 // R x = x + A w x x + B w x (w x x).
-template <class T>
+template <class T, int D = 3>
 struct BasicMotion {
-  Vector3<T> rotation;     // w, rad
-  Vector3<T> position_mm;  // p = (I + B [w]x + C [w]x^2) d
+  Turn<T, D> rotation;       // w, rad
+  Vector<T, D> position_mm;  // p = (I + B [w]x + C [w]x^2) d
   T A, B;
 
-  Vector3<T> rotate(const Vector3<T>& x) const {
-    const Vector3<T> wx = rotation.cross(x);
-    return x + (A * wx + B * rotation.cross(wx));
+  Vector<T, D> rotate(const Vector<T, D>& x) const {
+    const Vector<T, D> wx = cross(rotation, x);
+    return x + (A * wx + B * cross(rotation, wx));
   }
-  Vector3<T> rotate_back(const Vector3<T>& x) const {
-    const Vector3<T> wx = rotation.cross(x);
-    return x + (B * rotation.cross(wx) - A * wx);
+  Vector<T, D> rotate_back(const Vector<T, D>& x) const {
+    const Vector<T, D> wx = cross(rotation, x);
+    return x + (B * cross(rotation, wx) - A * wx);
+  }
+  // A moment; in the plane it stays as it is.
+  Turn<T, D> rotate_turn(const Turn<T, D>& m) const {
+    if constexpr (D == 3) return rotate(m);
+    else return m;
   }
 };
 using RigidMotion = BasicMotion<double>;
 
-template <class T>
-BasicMotion<T> exponential(const BasicScrew<T>& screw) {
-  const Vector3<T>& w = screw.rotation;
-  const Vector3<T>& d = screw.translation_mm;
+template <class T, int D>
+BasicMotion<T, D> exponential(const BasicScrew<T, D>& screw) {
+  const Turn<T, D>& w = screw.rotation;
+  const Vector<T, D>& d = screw.translation_mm;
   const T angle_squared = w.dot(w);
   const BasicCoefficients<T> k = screw_coefficients(angle_squared);
-  const Vector3<T> wd = w.cross(d);
-  return {w, d + (k.B * wd + k.C * w.cross(wd)), k.A, k.B};
+  const Vector<T, D> wd = cross(w, d);
+  return {w, d + (k.B * wd + k.C * cross(w, wd)), k.A, k.B};
 }
 
 // A turn about the tangent.
@@ -128,25 +164,27 @@ inline RigidMotion twist(double angle_rad) {
 }
 
 // Wrench at the proximal end of a motion from the one at its distal end: n_p = R n_d, m_p = R m_d + p x n_p.
-template <class T>
-BasicWrench<T> transport(const BasicMotion<T>& motion, const BasicWrench<T>& distal) {
-  const Vector3<T> force = motion.rotate(distal.force_N);
-  return {force, motion.rotate(distal.moment_Nmm) + motion.position_mm.cross(force)};
+template <class T, int D>
+BasicWrench<T, D> transport(const BasicMotion<T, D>& motion, const BasicWrench<T, D>& distal) {
+  const Vector<T, D> force = motion.rotate(distal.force_N);
+  return {force, motion.rotate_turn(distal.moment_Nmm) + arm_cross(motion.position_mm, force)};
 }
 
 // Pose of a section frame S in the base frame B; the rows of the rotation are turned one by one.
-struct SectionPose {
-  Matrix3d rotation_BS = Matrix3d::Identity();
-  Vector3d position_B_mm = Vector3d::Zero();
+template <int D>
+struct BasicPose {
+  Eigen::Matrix<double, D, D> rotation_BS = Eigen::Matrix<double, D, D>::Identity();
+  Vector<double, D> position_B_mm = Vector<double, D>::Zero();
 
-  SectionPose then(const RigidMotion& motion) const {
-    SectionPose next;
+  BasicPose then(const BasicMotion<double, D>& motion) const {
+    BasicPose next;
     next.position_B_mm = position_B_mm + rotation_BS * motion.position_mm;
-    for (int row = 0; row < 3; ++row) {
+    for (int row = 0; row < D; ++row) {
       next.rotation_BS.row(row) = motion.rotate_back(rotation_BS.row(row).transpose()).transpose();
     }
     return next;
   }
 };
+using SectionPose = BasicPose<3>;
 
 }  // namespace fam

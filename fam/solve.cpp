@@ -1,5 +1,6 @@
 #include "fam/solve.h"
 
+#include "fam/model_choice.h"
 #include "fam/scene_facts.h"
 
 #include <algorithm>
@@ -27,10 +28,6 @@ std::string beyond_published(const scene::Load& load) {
   return {};
 }
 
-bool gives_way(const scene::Stiffness& stiffness) {
-  return stiffness.axial_N || stiffness.shear_N;
-}
-
 std::string unsupported(const scene::Scene& scene, const std::vector<Span>& spans, const Options& options) {
   if (options.law != Law::published) return {};
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
@@ -46,83 +43,103 @@ std::string unsupported(const scene::Scene& scene, const std::vector<Span>& span
   return {};
 }
 
-// A bound on the tip's shift by shear and stretch: the strain |K_v^-1 n| summed along the rod, |n| bounded by the
-// forces beyond. The shift of the tip by the strains themselves; what they change in the moments is of their order.
-double shear_bound_mm(const std::vector<Span>& spans) {
-  double bound = 0;
-  double force = 0;
-  for (auto span = spans.rbegin(); span != spans.rend(); ++span) {
-    force += span->follower_load_S.force_N.norm() + span->fixed_load_B.force_N.norm() +
-             span->length_mm() * (span->follower_force_S_N_per_mm.norm() + span->fixed_force_B_N_per_mm.norm());
-    double compliance = 0;
-    if (span->stiffness.axial_N) compliance = 1 / *span->stiffness.axial_N;
-    if (span->stiffness.shear_N) compliance = std::max(compliance, 1 / span->stiffness.shear_N->minCoeff());
-    bound += span->length_mm() * compliance * (force + span->tendon_S.force_N.norm());
-  }
-  return 3 * bound;
-}
-
 // What is fixed once the options are read against the scene.
 struct Choice {
   Law law;
-  RodModel model;
-  double left_out_mm = 0;  // bound on the effect of shear and stretch where the automatic choice drops them
+  RodChoice rod;
+  std::optional<PlanarScene> plane;
   std::string reason;
 };
 
 Choice choose(const std::vector<Span>& spans, const Options& options, double tolerance_mm) {
-  Choice choice{options.law, options.model, 0, "as asked for"};
-  if (choice.law == Law::automatic) {
-    choice.law = Law::fourth_order;
-    choice.reason = "fourth_order: fewest arcs for any tolerance";
-  }
-  if (choice.model != RodModel::automatic) return choice;
-  const bool has_shear = std::any_of(spans.begin(), spans.end(), [](const Span& s) { return gives_way(s.stiffness); });
-  const double bound = shear_bound_mm(spans);
-  const bool negligible = options.arcs == 0 && bound <= 0.1 * tolerance_mm;
-  choice.model = has_shear && !negligible && choice.law != Law::published ? RodModel::reissner : RodModel::kirchhoff;
-  if (!has_shear) {
-    choice.reason += "; kirchhoff: the sections neither shear nor stretch";
-  } else if (choice.model == RodModel::reissner) {
-    choice.reason += "; reissner: shear and stretch are given and may matter";
-  } else if (choice.law == Law::published) {
-    choice.reason += "; kirchhoff: the published law's rod";
-  } else {
-    choice.left_out_mm = bound;
-    choice.reason += "; kirchhoff: shear and stretch move the tip by less than a tenth of the tolerance";
-  }
+  Choice choice{options.law, {}, {}, {}};
+  if (choice.law == Law::automatic) choice.law = Law::sixth_order;
+  if (choice.law != Law::published) choice.plane = in_one_plane(spans);
+  const bool published_rod = options.model == RodModel::automatic && choice.law == Law::published;
+  choice.rod =
+      choose_rod(spans, published_rod ? RodModel::kirchhoff : options.model, options.arcs == 0 ? tolerance_mm : 0);
+  choice.reason =
+      (choice.plane ? "planar: all loads and rest curvatures lie in one plane; " : "spatial; ") + choice.rod.reason +
+      "; " +
+      (options.law == Law::automatic ? "sixth_order: an arc costs no more than a fourth_order one and fewer do"
+                                     : "law as asked for") +
+      (all_loads_follow(spans) ? "; march: all loads follow the rod"
+                               : "; boundary value: a load is fixed in space or distributed");
   return choice;
 }
 
-// Newton ends a thousandth of the tolerance away, or at round-off where none is given.
-Prepared prepared(const std::vector<Span>& spans, const std::vector<int>& arcs, const Choice& choice,
-                  const Options& options) {
-  if (all_loads_follow(spans)) return March(spans, arcs, choice.law, choice.model, options.twist_order);
+template <int D>
+Prepared prepared_in(const std::vector<Span>& spans, const std::vector<int>& arcs, const Choice& choice,
+                     const Options& options) {
+  if (all_loads_follow(spans)) return {BasicMarch<D>(spans, arcs, choice.law, choice.rod.model, options.twist_order)};
+  // Newton ends a thousandth of the tolerance away, or at round-off where none is given.
   const double newton_tolerance =
       std::clamp(1e-3 * options.tolerance_mm / spans.back().end_mm, tightest_newton_tolerance, 1e-6);
-  return BoundaryValue(spans, arcs, choice.law, choice.model, newton_tolerance);
+  return {BasicBoundaryValue<D>(spans, arcs, choice.law, choice.rod.model, newton_tolerance)};
+}
+
+Prepared prepared(const std::vector<Span>& spans, const std::vector<int>& arcs, const Choice& choice,
+                  const Options& options) {
+  if (!choice.plane) return prepared_in<3>(spans, arcs, choice, options);
+  Prepared result = prepared_in<2>(choice.plane->spans, arcs, choice, options);
+  result.rotation_BP = choice.plane->rotation_BP;
+  return result;
+}
+
+Vector3d embedded(const Vector3d& v) {
+  return v;
+}
+Vector3d embedded(const Eigen::Vector2d& v) {
+  return {v[0], v[1], 0};
+}
+Vector3d embedded_turn(const Vector3d& v) {
+  return v;
+}
+Vector3d embedded_turn(const Turn<double, 2>& turn) {
+  return {0, 0, turn[0]};
+}
+
+template <int D>
+SectionPose in_base(const BasicPose<D>& pose, const Matrix3d& rotation_BP) {
+  Matrix3d rotation = Matrix3d::Identity();
+  rotation.topLeftCorner<D, D>() = pose.rotation_BS;
+  return {rotation_BP * rotation * rotation_BP.transpose(), rotation_BP * embedded(pose.position_B_mm)};
+}
+
+const std::string* message_of(const Prepared& prepared) {
+  return std::visit(
+      [](const auto& s) -> const std::string* {
+        if constexpr (requires { s.message(); }) return &s.message();
+        else return nullptr;
+      },
+      prepared.solver);
 }
 
 // A march or a boundary value problem, solved.
 struct Run {
-  Prepared solver;
+  Prepared prepared;
   Status status;
 
   Run(const std::vector<Span>& spans, const std::vector<int>& arcs, const Choice& choice, const Options& options,
-      const Run* half_as_many = nullptr)
-      : solver(prepared(spans, arcs, choice, options)) {
-    auto* boundary_value = std::get_if<BoundaryValue>(&solver);
-    const bool start = boundary_value && half_as_many && half_as_many->status == Status::converged;
-    status = start ? boundary_value->run_from(std::get<BoundaryValue>(half_as_many->solver)) : run_prepared(solver);
+      const Run* coarser = nullptr)
+      : prepared(fam::prepared(spans, arcs, choice, options)) {
+    status = std::visit(
+        [&](auto& solver) {
+          if constexpr (requires { solver.run_from(solver); }) {
+            using Solver = std::decay_t<decltype(solver)>;
+            if (coarser && coarser->status == Status::converged) {
+              return solver.run_from(std::get<Solver>(coarser->prepared.solver));
+            }
+          }
+          return solver.run();
+        },
+        prepared.solver);
   }
 
-  const std::vector<Arc>& arcs() const {
-    return std::visit([](const auto& s) -> const std::vector<Arc>& { return s.arcs(); }, solver);
+  int arc_count() const {
+    return std::visit([](const auto& s) { return s.arc_count(); }, prepared.solver);
   }
-  const std::vector<SectionPose>& poses() const {
-    return std::visit([](const auto& s) -> const std::vector<SectionPose>& { return s.poses(); }, solver);
-  }
-  int arc_count() const { return static_cast<int>(arcs().size()); }
+  bool marched() const { return message_of(prepared) == nullptr; }
 };
 
 // Arc lengths of the arc ends, clamp to tip, mm.
@@ -135,37 +152,30 @@ std::vector<double> arc_ends_mm(const std::vector<Span>& spans, const std::vecto
   return ends;
 }
 
-std::vector<int> doubled(std::vector<int> arcs) {
-  for (int& count : arcs) count *= 2;
+std::vector<int> times(std::vector<int> arcs, int factor) {
+  for (int& count : arcs) count *= factor;
   return arcs;
 }
 
-// Arcs to start with: one a span for the march; enough to carry the growth of the boundary value problem.
-std::vector<int> first_arcs(const std::vector<Span>& spans) {
-  std::vector<int> arcs(spans.size(), 1);
-  if (all_loads_follow(spans)) return arcs;
-  double force = 0;
-  for (std::size_t i = spans.size(); i-- > 0;) {
-    const Span& span = spans[i];
-    force += span.follower_load_S.force_N.norm() + span.fixed_load_B.force_N.norm() +
-             span.length_mm() * (span.follower_force_S_N_per_mm.norm() + span.fixed_force_B_N_per_mm.norm());
-    const double growth = span.length_mm() * std::sqrt(force / least_stiffness_Nmm2(span));
-    arcs[i] = static_cast<int>(std::clamp(std::ceil(2 * growth), 1.0, 1000.0));
-  }
-  return arcs;
+double order(Law law) {
+  return law == Law::sixth_order ? 6 : law == Law::fourth_order ? 4 : law == Law::midpoint ? 2 : 1;
 }
 
-double order_factor(Law law) {
-  return law == Law::fourth_order ? 16 : law == Law::midpoint ? 4 : 2;
-}  // 2^p
-
-// Largest distance between the arc ends that two marches share.
-double distance_mm(const Run& coarse, const Run& fine) {
-  double largest = 0;
-  for (std::size_t k = 0; k < coarse.poses().size(); ++k) {
-    largest = std::max(largest, (coarse.poses()[k].position_B_mm - fine.poses()[2 * k].position_B_mm).norm());
-  }
-  return largest;
+// Largest distance between the first_count arc ends that two runs share.
+double distance_mm(const Run& a, const Run& b, int first_count) {
+  return std::visit(
+      [&](const auto& solver) {
+        const auto& other = std::get<std::decay_t<decltype(solver)>>(b.prepared.solver);
+        const auto skip = [&](const auto& s) { return static_cast<std::size_t>(s.arc_count() / first_count); };
+        double largest = 0;
+        for (std::size_t k = 0; k <= static_cast<std::size_t>(first_count); ++k) {
+          largest = std::max(
+              largest,
+              (solver.poses()[k * skip(solver)].position_B_mm - other.poses()[k * skip(other)].position_B_mm).norm());
+        }
+        return largest;
+      },
+      a.prepared.solver);
 }
 
 double round_off_mm(const std::vector<Span>& spans, const Run& run) {
@@ -177,20 +187,22 @@ double round_off_mm(const std::vector<Span>& spans, const Run& run) {
 std::vector<scene::Station> stations_of(const Run& run, const std::vector<double>& ends_mm) {
   constexpr int fewest_intervals = 40;
   constexpr double largest_turn_rad = 0.5;
-  const int arcs = run.arc_count();
+  const int count = run.arc_count();
+  const std::vector<Arc> arcs = arcs_of(run.prepared);
+  const std::vector<SectionPose> poses = poses_of(run.prepared);
   std::vector<scene::Station> stations{{}};
   for (std::size_t k = 0; k + 1 < ends_mm.size(); ++k) {
-    const Arc& arc = run.arcs()[k];
+    const Arc& arc = arcs[k];
     const double turn = arc.screw.rotation.norm() + std::abs(arc.twist_before_rad) + std::abs(arc.twist_after_rad);
     const int for_turn = static_cast<int>(std::min(1e4, std::ceil(turn / largest_turn_rad)));
-    const int pieces = std::max({1, (fewest_intervals + arcs - 1) / arcs, for_turn});
+    const int pieces = std::max({1, (fewest_intervals + count - 1) / count, for_turn});
     for (int i = 1; i < pieces; ++i) {
       const double fraction = static_cast<double>(i) / pieces;
-      const SectionPose pose = pose_on(arc, run.poses()[k], fraction);
+      const SectionPose pose = pose_on(arc, poses[k], fraction);
       stations.push_back(
           {ends_mm[k] + fraction * (ends_mm[k + 1] - ends_mm[k]), {pose.rotation_BS, pose.position_B_mm}});
     }
-    const SectionPose& distal = run.poses()[k + 1];
+    const SectionPose& distal = poses[k + 1];
     stations.push_back({ends_mm[k + 1], {distal.rotation_BS, distal.position_B_mm}});
   }
   return stations;
@@ -200,11 +212,11 @@ Equilibrium failure(const Run& run) {
   Equilibrium result;
   result.status = run.status;
   const std::string arcs = std::to_string(run.arc_count());
-  if (const auto* boundary_value = std::get_if<BoundaryValue>(&run.solver)) {
-    result.message = boundary_value->message() + ", with " + arcs + " arcs";
+  if (const std::string* message = message_of(run.prepared)) {
+    result.message = *message + ", with " + arcs + " arcs";
   } else if (run.status == Status::arc_not_converged) {
-    result.message = "the bending angle of arc " + std::to_string(std::get<March>(run.solver).failed_arc()) + " of " +
-                     arcs + " (from the clamp) was not found; more arcs make each one easier";
+    result.message = "the bending angle of arc " + std::to_string(std::get<March>(run.prepared.solver).failed_arc()) +
+                     " of " + arcs + " (from the clamp) was not found; more arcs make each one easier";
   } else {
     result.message = "a pose or wrench overflowed with " + arcs + " arcs";
   }
@@ -219,34 +231,43 @@ struct Task {
   double tolerance_mm;
 };
 
+// What the boundary value solver did, and whether its equilibrium is stable.
+template <int D>
+void report(const BasicBoundaryValue<D>& solver, const Task& task, Equilibrium& result) {
+  result.model.emplace_back("segments", solver.segment_count());
+  result.model.emplace_back("load_steps", solver.load_steps());
+  result.model.emplace_back("newton_iterations", solver.newton_steps());
+  if (conservative(task.spans)) result.stable = solver.one_equilibrium() ? true : solver.stable();
+}
+template <int D>
+void report(const BasicMarch<D>&, const Task&, Equilibrium&) {}
+
 Equilibrium success(const Task& task, const Run& run, const std::vector<int>& arcs, double error_mm,
                     const std::string& reason) {
   Equilibrium result;
   result.status = Status::converged;
   result.stations = stations_of(run, arc_ends_mm(task.spans, arcs));
   result.tip_angle_rad = scene::total_angle_rad(result.stations);
-  const SectionWrench& base =
-      std::visit([](const auto& s) -> const SectionWrench& { return s.base_wrench(); }, run.solver);
-  result.base_force_B_N = base.force_N;
-  result.base_moment_B_Nmm = base.moment_Nmm;
   result.error_estimate_mm = error_mm;
-  const bool torsion = std::any_of(run.arcs().begin(), run.arcs().end(), [](const Arc& arc) {
+  const std::vector<Arc> solved = arcs_of(run.prepared);
+  const bool torsion = std::any_of(solved.begin(), solved.end(), [](const Arc& arc) {
     return arc.screw.rotation[0] != 0 || arc.twist_before_rad != 0 || arc.twist_after_rad != 0;
   });
-  const auto* boundary_value = std::get_if<BoundaryValue>(&run.solver);
   result.model = {{"law", std::string(name(task.choice.law))},
                   {"arcs", run.arc_count()},
-                  {"planar", is_planar(task.spans)},
+                  {"planar", task.choice.plane || is_planar(task.spans)},
                   {"torsion", torsion},
-                  {"shear", task.choice.model == RodModel::reissner},
-                  {"solver", std::string(boundary_value ? "boundary value" : "march")},
+                  {"shear", task.choice.rod.model == RodModel::reissner},
+                  {"solver", std::string(run.marched() ? "march" : "boundary value")},
+                  {"kernel", std::string(task.choice.plane ? "planar" : "spatial")},
                   {"reason", task.choice.reason + "; " + reason}};
-  if (boundary_value) {
-    result.model.emplace_back("segments", boundary_value->segment_count());
-    result.model.emplace_back("load_steps", boundary_value->load_steps());
-    result.model.emplace_back("newton_iterations", boundary_value->newton_steps());
-    if (conservative(task.spans)) result.stable = boundary_value->stable();
-  }
+  std::visit(
+      [&](const auto& solver) {
+        result.base_force_B_N = run.prepared.rotation_BP * embedded(solver.base_wrench().force_N);
+        result.base_moment_B_Nmm = run.prepared.rotation_BP * embedded_turn(solver.base_wrench().moment_Nmm);
+        report(solver, task, result);
+      },
+      run.prepared.solver);
   return result;
 }
 
@@ -256,38 +277,50 @@ Equilibrium solve_fixed(const Task& task) {
   if (run.status != Status::converged) return failure(run);
   double error = 0;
   if (task.options.estimate_error) {
-    const Run twice(task.spans, doubled(arcs), task.choice, task.options, &run);
-    const double factor = order_factor(task.choice.law);
+    const Run twice(task.spans, times(arcs, 2), task.choice, task.options, &run);
+    const double factor = std::pow(2, order(task.choice.law));
     error = twice.status == Status::converged
-                ? factor / (factor - 1) * distance_mm(run, twice) + round_off_mm(task.spans, run)
+                ? factor / (factor - 1) * distance_mm(run, twice, run.arc_count()) + round_off_mm(task.spans, run)
                 : std::numeric_limits<double>::infinity();
   }
-  return success(task, run, arcs, error + task.choice.left_out_mm, "number of arcs given");
+  return success(task, run, arcs, error + task.choice.rod.left_out_mm, "number of arcs given");
 }
 
-// Doubles the arcs until N or 2N arcs meet the tolerance by the difference between them.
+// Runs with growing multiples of the first arcs, each compared with the one before at the ends of the first arcs.
 Equilibrium solve_to_tolerance(const Task& task) {
-  const double factor = order_factor(task.choice.law);
-  std::vector<int> arcs = first_arcs(task.spans);
-  std::optional<Run> coarse(std::in_place, task.spans, arcs, task.choice, task.options);
+  const double p = order(task.choice.law);
+  const double length_mm = task.spans.back().end_mm;
+  const std::vector<int> first = first_arcs(task.spans);
+  int count = 0;
+  for (const int arcs : first) count += arcs;
+  int multiple = 1;
+  std::optional<Run> coarse(std::in_place, task.spans, first, task.choice, task.options);
   double error = std::numeric_limits<double>::infinity();
   int failures = coarse->status == Status::converged ? 0 : 1;
-  const bool marching = std::holds_alternative<March>(coarse->solver);
-  while (2 * coarse->arc_count() <= max_arcs && (marching || failures < 4)) {
-    const std::vector<int> twice = doubled(arcs);
-    Run fine(task.spans, twice, task.choice, task.options, &*coarse);
+  int next = 2;
+  while (static_cast<double>(next) * count <= max_arcs && (coarse->marched() || failures < 4)) {
+    const std::vector<int> arcs = times(first, next);
+    Run fine(task.spans, arcs, task.choice, task.options, &*coarse);
+    const double ratio = static_cast<double>(next) / multiple;
+    int after = 2 * next;
     if (fine.status != Status::converged) ++failures;
     if (coarse->status == Status::converged && fine.status == Status::converged) {
-      const double difference = distance_mm(*coarse, fine);
+      const double d = distance_mm(*coarse, fine, count);
       const auto meets = [&](const Run& run, double estimate) {
-        error = estimate + round_off_mm(task.spans, run) + task.choice.left_out_mm;
+        error = estimate + round_off_mm(task.spans, run) + task.choice.rod.left_out_mm;
         return error <= task.tolerance_mm;
       };
-      const std::string reason = "arcs doubled until the estimate met the tolerance";
-      if (meets(*coarse, factor / (factor - 1) * difference)) return success(task, *coarse, arcs, error, reason);
-      if (meets(fine, 2 / (factor - 1) * difference)) return success(task, fine, twice, error, reason);
+      const std::string reason = "fewest arcs found whose estimate meets the tolerance";
+      if (meets(*coarse, coarse_safety * d)) return success(task, *coarse, times(first, multiple), error, reason);
+      if (meets(fine, d * (fine_safety / (std::pow(ratio, p) - 1) + distrust * d / length_mm))) {
+        return success(task, fine, arcs, error, reason);
+      }
+      const double growth = 1.05 * std::pow(error / task.tolerance_mm, 1 / p);
+      after = static_cast<int>(std::clamp(std::ceil(growth * next), 1.3 * next, 4.0 * next));
+      after = std::max(after, next + 1);
     }
-    arcs = twice;
+    multiple = next;
+    next = after;
     coarse.emplace(std::move(fine));
   }
   if (coarse->status != Status::converged) return failure(*coarse);
@@ -306,20 +339,49 @@ const char* name(Law law) {
     case Law::published: return "published";
     case Law::midpoint: return "midpoint";
     case Law::fourth_order: return "fourth_order";
+    case Law::sixth_order: return "sixth_order";
   }
   return "unknown";
 }
 
-Status run_prepared(Prepared& solver) {
-  return std::visit([](auto& s) { return s.run(); }, solver);
+Status run_prepared(Prepared& prepared) {
+  return std::visit([](auto& solver) { return solver.run(); }, prepared.solver);
 }
 
 std::optional<Prepared> prepare(const scene::Scene& scene, const Options& options, std::string& reason) {
   const std::vector<Span> spans = scene::spans_of(scene);
   reason = unsupported(scene, spans, options);
   if (!reason.empty()) return std::nullopt;
-  const Choice choice = choose(spans, options, options.tolerance_mm);
-  return prepared(spans, scene::cells_per_span(spans, options.arcs), choice, options);
+  return prepared(spans, scene::cells_per_span(spans, options.arcs), choose(spans, options, options.tolerance_mm),
+                  options);
+}
+
+std::vector<Arc> arcs_of(const Prepared& prepared) {
+  const Matrix3d& rotation = prepared.rotation_BP;
+  std::vector<Arc> result;
+  std::visit(
+      [&](const auto& solver) {
+        result.reserve(solver.arcs().size());
+        for (const auto& arc : solver.arcs()) {
+          result.push_back(
+              {{rotation * embedded_turn(arc.screw.rotation), rotation * embedded(arc.screw.translation_mm)},
+               arc.twist_before_rad,
+               arc.twist_after_rad});
+        }
+      },
+      prepared.solver);
+  return result;
+}
+
+std::vector<SectionPose> poses_of(const Prepared& prepared) {
+  std::vector<SectionPose> result;
+  std::visit(
+      [&](const auto& solver) {
+        result.reserve(solver.poses().size());
+        for (const auto& pose : solver.poses()) result.push_back(in_base(pose, prepared.rotation_BP));
+      },
+      prepared.solver);
+  return result;
 }
 
 Equilibrium solve(const scene::Scene& scene, const Options& options) {

@@ -16,7 +16,7 @@ namespace fam {
 constexpr int max_arcs = 1'000'000;
 
 struct Options {
-  Law law = Law::automatic;                         // automatic: fourth_order
+  Law law = Law::automatic;                         // automatic: sixth_order
   RodModel model = RodModel::automatic;             // automatic: Kirchhoff unless the scene stretches or shears visibly
   TwistOrder twist_order = TwistOrder::bend_twist;  // of the published law
 
@@ -38,17 +38,37 @@ const char* name(Law law);
 //   arc_not_converged  see fam/arc_law.h
 //   tolerance_not_met  estimated tip error > tolerance with max_arcs arcs
 //   not_finite         overflow
-// The error estimate is the largest distance between the arc ends with N and with 2N arcs, times 2^p/(2^p - 1) for
-// the law's order p (published: p = 1, its order in 3D), plus the round-off 4 eps L sqrt(N). It estimates the
-// discretisation error of the chosen rod model; where the automatic choice leaves out shear and stretch, the bound
-// on what they could do is added.
+//
+// The automatic choice, each part reported in words (model: reason):
+//   plane or space   the planar kernels where all lies in one plane (model_choice.h); but for the published law
+//   shear            model_choice.h
+//   law              sixth_order: an arc costs what one of fourth_order does, and fewer are needed
+//   arcs             multiples of first_arcs(), the smallest found whose estimated error meets the tolerance
+//   solver           the march where all loads follow, else the boundary value problem
+//
+// Error estimate, with a fixed number of arcs N: the largest distance d between the arc ends with N and with 2N arcs,
+// times 2^p/(2^p - 1) for the law's order p (published: p = 1, its order in 3D). By tolerance: see the constants below.
+// Both: plus the round-off 4 eps L sqrt(N). It estimates the discretisation error of the chosen rod model; where the
+// automatic choice leaves out shear and stretch, the bound on what they could do is added.
 scene::Equilibrium solve(const scene::Scene& scene, const Options& options = {});
+
+// Automatic choice: runs with N and r N arcs that lie d apart; the estimate is coarse_safety d for the first and
+// d (fine_safety / (r^p - 1) + distrust d / L) for the second.
+constexpr double coarse_safety = 1.5;
+constexpr double fine_safety = 2;
+constexpr double distrust = 4;
 
 // The solver that options with fixed arcs, law and model describe, with its memory; empty where solve() would end in
 // `unsupported`, with the reason. run_prepared does not allocate for a march, nor for a boundary value problem of one
 // segment.
-using Prepared = std::variant<March, BoundaryValue>;
+struct Prepared {
+  std::variant<March, BasicMarch<2>, BoundaryValue, BasicBoundaryValue<2>> solver;
+  Matrix3d rotation_BP = Matrix3d::Identity();  // from the frame that the solver works in to the base frame
+};
 std::optional<Prepared> prepare(const scene::Scene& scene, const Options& options, std::string& reason);
-scene::Status run_prepared(Prepared& solver);
+scene::Status run_prepared(Prepared& prepared);
+// After a converged run: arcs and poses of their ends, clamp to tip, in the base frame.
+std::vector<Arc> arcs_of(const Prepared& prepared);
+std::vector<SectionPose> poses_of(const Prepared& prepared);
 
 }  // namespace fam

@@ -37,16 +37,16 @@ fam::Options march_options(const std::string& law, int arcs) {
   return options;
 }
 
-fam::March ready_march(const scene::Scene& scene, const std::string& law, int arcs) {
+fam::Prepared ready_march(const scene::Scene& scene, const std::string& law, int arcs) {
   std::string reason;
-  return std::get<fam::March>(fam::prepare(scene, march_options(law, arcs), reason).value());
+  return fam::prepare(scene, march_options(law, arcs), reason).value();
 }
 
 // Empty where an arc's angle was not found.
 std::optional<Vector3d> marched_tip_mm(const scene::Scene& scene, const std::string& law, int arcs) {
-  fam::March march = ready_march(scene, law, arcs);
-  if (march.run() != scene::Status::converged) return {};
-  return march.poses().back().position_B_mm;
+  fam::Prepared march = ready_march(scene, law, arcs);
+  if (fam::run_prepared(march) != scene::Status::converged) return {};
+  return fam::poses_of(march).back().position_B_mm;
 }
 
 // P4 and its relatives: uniform, planar, loaded at the tip by (0, F_y) and M_z.
@@ -153,14 +153,16 @@ class Segmentation {
   void draw_shapes() {
     const double length = scene::length_mm(p4_);
     for (const int arcs : {1, 2, 3, 12, 500}) {
-      fam::March march = ready_march(p4_, "published", arcs);
-      if (march.run() != scene::Status::converged) continue;
+      fam::Prepared march = ready_march(p4_, "published", arcs);
+      if (fam::run_prepared(march) != scene::Status::converged) continue;
+      const std::vector<fam::Arc> solved = fam::arcs_of(march);
+      const std::vector<fam::SectionPose> poses = fam::poses_of(march);
       SweepShape shape{std::to_string(arcs) + (arcs == 1 ? " arc" : " arcs"), {}};
       for (int i = 0; i <= 48; ++i) {
         const int arc = std::min(arcs - 1, i * arcs / 48);
         const auto index = static_cast<std::size_t>(arc);
         const double fraction = static_cast<double>(i) * arcs / 48 - arc;
-        shape.positions_mm.push_back(fam::pose_on(march.arcs()[index], march.poses()[index], fraction).position_B_mm);
+        shape.positions_mm.push_back(fam::pose_on(solved[index], poses[index], fraction).position_B_mm);
       }
       data_.shapes.push_back(std::move(shape));
     }
@@ -175,8 +177,8 @@ class Segmentation {
     for (const std::string& law : laws) {
       for (const int arcs : all_arcs) {
         if (options_.quick && arcs > 10'000) continue;
-        const auto march = std::make_shared<fam::March>(ready_march(p4_, law, arcs));
-        data_.times.push_back({law, arcs, measure([march] { march->run(); }, options_.quick ? 0 : 0.05)});
+        const auto march = std::make_shared<fam::Prepared>(ready_march(p4_, law, arcs));
+        data_.times.push_back({law, arcs, measure([march] { fam::run_prepared(*march); }, options_.quick ? 0 : 0.05)});
       }
     }
   }

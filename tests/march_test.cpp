@@ -156,7 +156,7 @@ TEST(March, PublishedLawFallsToTheEnd) {
 TEST(March, RollUp) {
   const double two_turns = 4 * std::numbers::pi * 750 / 40;
   const scene::Scene scene = tip_loaded(slender(750, 500), {0, 0, 0}, {0, 0, two_turns});
-  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order}) {
+  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order, Law::sixth_order}) {
     EXPECT_LT(tip(scene, with(law, 1)).norm(), 1e-13);
     EXPECT_LT(tip(scene, with(law, 1000)).norm(), 1e-11);
   }
@@ -168,7 +168,7 @@ TEST(March, RollUp) {
 
 // Base wrench from global equilibrium: n(0) = R F, m(0) = R M + p x n, with the tip's pose.
 TEST(March, BaseWrenchBalancesTheLoads) {
-  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order}) {
+  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order, Law::sixth_order}) {
     const scene::Equilibrium result = fam::solve(check_rod(), with(law, 12));
     const Vector3d force = result.tip().rotation_BS * Vector3d(-0.5, 0.8, 0.6);
     const Vector3d moment = result.tip().rotation_BS * Vector3d(10, 20, -15) + result.tip().position_B_mm.cross(force);
@@ -181,7 +181,7 @@ TEST(March, BaseWrenchBalancesTheLoads) {
 TEST(March, Invariances) {
   const Vector3d F(-0.5, 0.8, 0.6), M(10, 20, -15);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d::UnitX()).toRotationMatrix();
-  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order}) {
+  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order, Law::sixth_order}) {
     const fam::Options options = with(law, 7);
     const Vector3d straight = tip(check_rod(), options);
     EXPECT_LT((tip(tip_loaded(slender(1500, 1000), turn * F, turn * M), options) - turn * straight).norm(), 1e-13);
@@ -200,7 +200,7 @@ TEST(March, Invariances) {
 TEST(March, TendonClosedForm) {
   const double curvature = 3.0 * 1.5 / 750;  // tension 3 N at y = 1.5 mm
   const Vector3d circle(std::sin(40 * curvature) / curvature, (1 - std::cos(40 * curvature)) / curvature, 0);
-  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order}) {
+  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order, Law::sixth_order}) {
     const scene::Scene scene = uniform_rod(40, slender(750, 500), {scene::Tendon{{1.5, 0}, 3, 40}});
     EXPECT_LT((tip(scene, with(law, 5)) - circle).norm(), 1e-13);
     const scene::Equilibrium result = fam::solve(scene, with(law, 5));
@@ -213,7 +213,7 @@ TEST(March, TendonClosedForm) {
 TEST(March, RestCurvatureIsTheUnloadedShape) {
   scene::Scene scene = uniform_rod(40, slender(750, 500), {});
   scene.sections[0].rest_curvature_per_mm = {0, 0, 0.02};
-  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order}) {
+  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order, Law::sixth_order}) {
     EXPECT_LT((tip(scene, with(law, 3)) - Vector3d(50 * std::sin(0.8), 50 * (1 - std::cos(0.8)), 0)).norm(), 1e-13);
   }
 }
@@ -240,7 +240,7 @@ TEST(March, SectionsAndLoadsAlongTheRod) {
 }
 
 TEST(March, SolvesWithoutAllocating) {
-  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order}) {
+  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order, Law::sixth_order}) {
     for (const RodModel model : {RodModel::kirchhoff, RodModel::reissner}) {
       if (law == Law::published && model == RodModel::reissner) continue;
       std::string reason;
@@ -261,7 +261,7 @@ TEST(March, SolvesWithoutAllocating) {
 // The estimate brackets the true error where the arcs resolve the rod.
 TEST(Solve, ErrorEstimate) {
   for (const std::string& name : support::study1_cases()) {
-    for (const Law law : {Law::published, Law::midpoint, Law::fourth_order}) {
+    for (const Law law : {Law::published, Law::midpoint, Law::fourth_order, Law::sixth_order}) {
       fam::Options options = with(law, 24, RodModel::kirchhoff);
       options.estimate_error = true;
       const scene::Equilibrium result = fam::solve(support::study1_scene(name, "follower"), options);

@@ -29,9 +29,9 @@ fam::Options with(Law law, int arcs) {
 
 Vector3d tip_mm(const scene::Scene& scene, const fam::Options& options) {
   std::string reason;
-  auto march = std::get<fam::March>(fam::prepare(scene, options, reason).value());
-  if (march.run() != scene::Status::converged) return Vector3d::Constant(NAN);
-  return march.poses().back().position_B_mm;
+  fam::Prepared march = fam::prepare(scene, options, reason).value();
+  if (fam::run_prepared(march) != scene::Status::converged) return Vector3d::Constant(NAN);
+  return fam::poses_of(march).back().position_B_mm;
 }
 
 // P4's tip error over L; the closed form is good to 1e-13 L.

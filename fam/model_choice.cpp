@@ -1,0 +1,138 @@
+#include "fam/model_choice.h"
+
+#include "fam/scene_facts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fam {
+namespace {
+
+using Eigen::Vector2d;
+using scene::Span;
+
+// Sum of the sizes of all forces that act on a span or beyond it.
+double add_force_N(const Span& span) {
+  return span.follower_load_S.force_N.norm() + span.fixed_load_B.force_N.norm() +
+         span.length_mm() * (span.follower_force_S_N_per_mm.norm() + span.fixed_force_B_N_per_mm.norm());
+}
+
+// A bound on the tip's shift by shear and stretch: the strain |K_v^-1 n| summed along the rod, |n| bounded by the
+// forces beyond. The shift of the tip by the strains themselves; what they change in the moments is of their order.
+double shear_bound_mm(std::span<const Span> spans) {
+  double bound = 0;
+  double force = 0;
+  for (auto span = spans.rbegin(); span != spans.rend(); ++span) {
+    force += add_force_N(*span);
+    double compliance = 0;
+    if (span->stiffness.axial_N) compliance = 1 / *span->stiffness.axial_N;
+    if (span->stiffness.shear_N) compliance = std::max(compliance, 1 / span->stiffness.shear_N->minCoeff());
+    bound += span->length_mm() * compliance * (force + span->tendon_S.force_N.norm());
+  }
+  return 3 * bound;
+}
+
+// The vectors of a span that must lie in the plane, and those that must be normal to it.
+std::vector<Vector3d> vectors_in_plane(const Span& span) {
+  return {span.follower_load_S.force_N, span.fixed_load_B.force_N, span.follower_force_S_N_per_mm,
+          span.fixed_force_B_N_per_mm};
+}
+std::vector<Vector3d> turns_in_plane(const Span& span) {
+  return {span.follower_load_S.moment_Nmm, span.fixed_load_B.moment_Nmm, span.tendon_S.moment_Nmm,
+          span.rest_curvature_per_mm};
+}
+
+// The direction (y, z) of the plane that one vector or turn asks for; zero: any.
+Vector2d of_turn(const Vector3d& turn) {
+  return {turn[2], -turn[1]};
+}
+
+bool same_both_ways(const scene::Stiffness& stiffness) {
+  return stiffness.bending_Nmm2[0] == stiffness.bending_Nmm2[1] &&
+         (!stiffness.shear_N || (*stiffness.shear_N)[0] == (*stiffness.shear_N)[1]);
+}
+
+// Empty where the directions differ; (1, 0) where none is asked for.
+std::optional<Vector2d> common_direction(std::span<const Span> spans) {
+  Vector2d common = Vector2d::Zero();
+  const auto agrees = [&](const Vector2d& direction) {
+    const double size = direction.norm();
+    if (size == 0) return true;
+    if (common.isZero(0)) common = direction / size;
+    return std::abs(common[0] * direction[1] - common[1] * direction[0]) <=
+           2 * std::numeric_limits<double>::epsilon() * size;
+  };
+  for (const Span& span : spans) {
+    for (const Vector3d& vector : vectors_in_plane(span)) {
+      if (!agrees(vector.tail<2>())) return std::nullopt;
+    }
+    for (const Vector3d& turn : turns_in_plane(span)) {
+      if (turn[0] != 0 || !agrees(of_turn(turn))) return std::nullopt;
+    }
+  }
+  return common.isZero(0) ? Vector2d(1, 0) : common;
+}
+
+Span turned(const Span& span, const Matrix3d& rotation_PB, bool swap) {
+  Span result = span;
+  const auto turn = [&](Vector3d& v, bool is_turn) {
+    v = rotation_PB * v;
+    (is_turn ? v[1] : v[2]) = 0;
+  };
+  for (scene::Wrench* wrench : {&result.follower_load_S, &result.fixed_load_B, &result.tendon_S}) {
+    turn(wrench->force_N, false);
+    turn(wrench->moment_Nmm, true);
+  }
+  turn(result.follower_force_S_N_per_mm, false);
+  turn(result.fixed_force_B_N_per_mm, false);
+  turn(result.rest_curvature_per_mm, true);
+  if (swap) {
+    result.stiffness.bending_Nmm2.reverseInPlace();
+    if (result.stiffness.shear_N) result.stiffness.shear_N->reverseInPlace();
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<PlanarScene> in_one_plane(std::span<const Span> spans) {
+  const std::optional<Vector2d> direction = common_direction(spans);
+  if (!direction) return std::nullopt;
+  const double c = (*direction)[0], s = (*direction)[1];
+  const bool any_plane =
+      std::all_of(spans.begin(), spans.end(), [](const Span& x) { return same_both_ways(x.stiffness); });
+  if (!any_plane && c != 0 && s != 0) return std::nullopt;
+  PlanarScene scene;
+  scene.rotation_BP << 1, 0, 0, 0, c, -s, 0, s, c;
+  for (const Span& span : spans) {
+    scene.spans.push_back(turned(span, scene.rotation_BP.transpose(), !any_plane && c == 0));
+  }
+  return scene;
+}
+
+RodChoice choose_rod(std::span<const Span> spans, RodModel wanted, double tolerance_mm) {
+  if (wanted != RodModel::automatic) return {wanted, 0, "rod model as asked for"};
+  const bool gives_way = std::any_of(spans.begin(), spans.end(),
+                                     [](const Span& span) { return span.stiffness.axial_N || span.stiffness.shear_N; });
+  if (!gives_way) return {RodModel::kirchhoff, 0, "no shear: the sections neither shear nor stretch"};
+  const double bound_mm = shear_bound_mm(spans);
+  if (bound_mm <= 0.1 * tolerance_mm) {
+    return {RodModel::kirchhoff, bound_mm,
+            "no shear: shear and stretch move the tip by less than a tenth of the tolerance"};
+  }
+  return {RodModel::reissner, 0, "shear: the sections shear or stretch, and it may matter"};
+}
+
+std::vector<int> first_arcs(std::span<const Span> spans) {
+  std::vector<int> arcs(spans.size(), 1);
+  double force = 0;
+  for (std::size_t i = spans.size(); i-- > 0;) {
+    force += add_force_N(spans[i]);
+    const double growth = spans[i].length_mm() * std::sqrt(force / least_stiffness_Nmm2(spans[i]));
+    arcs[i] = static_cast<int>(std::clamp(std::ceil(growth / 1.5), 1.0, 1000.0));
+  }
+  return arcs;
+}
+
+}  // namespace fam
