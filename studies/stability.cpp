@@ -1,0 +1,145 @@
+// fam-studies stability: solves the scenes of stability_maps.h by every method, judges each answer against the exact
+// rod, and writes maps, tables, the smallest breaking scenes and a page to results/stability.
+#include "studies/stability.h"
+
+#include "exact_reference/elastica.h"
+#include "exact_reference/solve.h"
+#include "scene/scene_file.h"
+#include "studies/output_file.h"
+#include "studies/provenance.h"
+#include "studies/stability_data.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+
+namespace studies {
+namespace {
+
+using exact_reference::RodModel, exact_reference::Way;
+
+double tip_distance(const scene::Equilibrium& a, const scene::Equilibrium& b, double length_mm) {
+  return (a.tip().position_B_mm - b.tip().position_B_mm).norm() / length_mm;
+}
+
+// The exact tip, and how far what checks it lies from it; NaN: nothing to check it by.
+struct Truth {
+  scene::Equilibrium tip;
+  double check = NAN;
+  bool closed_form = false;
+};
+
+// By CVODE from the tip, the fixed loads turned with the tip that multiple shooting found.
+double check_by_other_way(const scene::Scene& scene, const scene::Equilibrium& found) {
+  const std::optional<scene::Scene> turned = turned_to_follower(scene, found);
+  if (!turned) return NAN;
+  const scene::Equilibrium marched = exact_reference::solve(*turned, {RodModel::reissner, 1e-12, Way::initial_value});
+  return marched.converged() ? tip_distance(marched, found, scene::length_mm(scene)) : NAN;
+}
+
+Truth truth_of(const StabilityMap& map, double x, double y) {
+  const scene::Scene scene = map.scene(x, y);
+  Truth truth{exact_reference::solve(scene, {RodModel::reissner, 1e-12, Way::boundary_value}), NAN, false};
+  const std::optional<Eigen::Vector3d> closed_form = map.closed_form(x, y);
+  if (closed_form) {
+    scene::Equilibrium exact = truth.tip;  // for its stability
+    exact.status = scene::Status::converged;
+    exact.stations = {{scene::length_mm(scene), {Eigen::Matrix3d::Identity(), *closed_form}}};
+    truth.closed_form = true;
+    if (truth.tip.converged()) truth.check = tip_distance(truth.tip, exact, scene::length_mm(scene));
+    truth.tip = exact;
+  } else if (truth.tip.converged()) {
+    truth.check = check_by_other_way(scene, truth.tip);
+  }
+  return truth;
+}
+
+class Stability {
+ public:
+  explicit Stability(const StudyOptions& options) : options_(options), folder_(options.output / "stability") {
+    data_.maps = stability_maps();
+    for (const Contender& contender : contenders_) data_.methods.push_back(contender.name);
+  }
+
+  void run() {
+    for (const StabilityMap& map : data_.maps) fill(map);
+    measure_sensitivity();
+    collect_breaking_scenes();
+    write();
+  }
+
+ private:
+  void fill(const StabilityMap& map) {
+    progress("stability", map.name);
+    ReferenceCheck check{map.name, 0, 0, 0, 0, 0, 0};
+    for (const double x : map.x.values) {
+      Truth truth;
+      for (const double y : map.y.values) {
+        // With the resolution on the y axis the scene is the same in the whole column.
+        if (!map.y_is_cells || y == map.y.values.front()) truth = checked_truth(map, x, y, check);
+        for (const Contender& contender : contenders_) ask(map, contender, x, y, truth.tip);
+      }
+    }
+    data_.checks.push_back(check);
+  }
+
+  static Truth checked_truth(const StabilityMap& map, double x, double y, ReferenceCheck& check) {
+    Truth truth = truth_of(map, x, y);
+    ++check.scenes;
+    if (!truth.tip.converged()) {
+      ++check.unsolved;
+    } else if (std::isnan(truth.check)) {
+      ++check.unchecked;
+    } else {
+      ++(truth.closed_form ? check.by_closed_form : check.by_other_way);
+      check.largest_difference = std::max(check.largest_difference, truth.check);
+    }
+    return truth;
+  }
+
+  void ask(const StabilityMap& map, const Contender& contender, double x, double y, const scene::Equilibrium& truth) {
+    const int cells = contender.automatic ? 0 : map.y_is_cells ? static_cast<int>(y) : fixed_cells;
+    if (cells > contender.most_cells || !truth.converged()) return;
+    if (contender.automatic && map.y_is_cells && y != map.y.values.front()) return;
+    const scene::Scene scene = map.scene(x, y);
+    const auto start = std::chrono::steady_clock::now();
+    const scene::Equilibrium answer = contender.solve(scene, cells);
+    const auto refined = [&] { return contender.solve(scene, 4 * cells); };
+    const Judgement judgement = judge(answer, truth, scene::length_mm(scene), refined);
+    times_[map.name + " " + contender.name] +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    data_.cells.push_back(
+        {map.name, contender.name, x, y, cells, judgement, scene::name(answer.status), answer.message});
+  }
+
+  void measure_sensitivity() {}
+  void collect_breaking_scenes() {}
+
+  void write() const {
+    std::map<std::string, std::string> files = stability_tables(data_);
+    std::vector<std::string> names;
+    for (const auto& [name, text] : files) {
+      write_file(folder_ / name, text);
+      names.push_back(name);
+    }
+    write_provenance(folder_, "fam-studies stability", names);
+    if (std::getenv("STABILITY_TIMES"))
+      for (const auto& [n, t] : times_) fmt::print(stderr, "{} {:.2f}\n", n, t);
+  }
+
+  StudyOptions options_;
+  std::filesystem::path folder_;
+  std::vector<Contender> contenders_ = contenders();
+  StabilityData data_;
+  std::map<std::string, double> times_;
+};
+
+}  // namespace
+
+void stability(const StudyOptions& options) {
+  Stability(options).run();
+}
+
+}  // namespace studies
