@@ -21,7 +21,7 @@ struct StabilityCell {
 // How far the exact reference and what checks it lie apart, over L, in the worst cell of a map.
 struct ReferenceCheck {
   std::string map;
-  int scenes, by_closed_form, by_other_way, unchecked, unsolved;
+  int scenes, by_closed_form, by_march, unchecked, unsolved;
   double largest_difference;
 };
 

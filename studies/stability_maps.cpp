@@ -21,7 +21,7 @@ constexpr double pi = std::numbers::pi;
 
 const std::vector<double> many_loads = {0.01, 0.1, 1, 10, 100, 1000, 10'000};
 const std::vector<double> cells = {1, 2, 4, 8, 16, 32, 64, 128, 256};
-const std::vector<double> loads = {0.1, 1, 3, 10, 30, 100};
+const std::vector<double> loads = {0.1, 1, 3, 10, 30};
 
 scene::Section uniform_section() {
   scene::Stiffness stiffness;
@@ -83,9 +83,9 @@ std::vector<StabilityMap> load_maps() {
              return fixed_elastica({0, f});
            }},
           {"direction",
-           "Direction of a fixed tip force: 0° pulls, 90° is across, 180° pushes",
-           {"angle to the rod, degrees", {0, 30, 60, 90, 120, 150, 170, 179, 179.9, 179.999, 180}},
-           {"|F| L²/EI (Euler: 2.467)", {0.1, 1, 2, 2.46, 2.48, 3, 5, 10, 30, 100}},
+           "Direction of a fixed tip force: 0° pulls, 90° is across, 180° pushes (Euler: 2.467)",
+           {"angle to the rod, degrees", {0, 45, 90, 135, 170, 179, 179.9, 179.999, 180}},
+           {"|F| L²/EI", {1, 2.46, 2.48, 3, 10, 100}},
            false,
            [](double angle, double f) {
              const Vector2d force = at_angle(angle, f);
@@ -95,7 +95,7 @@ std::vector<StabilityMap> load_maps() {
 }
 
 std::vector<StabilityMap> moment_maps() {
-  const MapAxis turns{"turns", {0, 0.25, 0.5, 1, 2, 3, 5, 7, 10}}, count{"arcs or elements", cells};
+  const MapAxis turns{"turns", {0.25, 0.5, 1, 2, 4, 7, 10}}, count{"arcs or elements", cells};
   return {
       {"torque", "Follower torque, M L/GJ in turns, with a transverse follower force of 0.1 EI/L²", turns, count, true,
        [](double turn, double) {
@@ -167,7 +167,7 @@ std::vector<StabilityMap> section_maps() {
            none},
           {"ribbon",
            "Ribbon on edge, fixed force with a thousandth of it sideways",
-           {"F / toppling load", {0.25, 0.5, 0.9, 0.99, 1.01, 1.1, 1.5, 2, 4}},
+           {"F / toppling load", {0.5, 0.9, 0.99, 1.01, 1.1, 2, 4}},
            {"EI_z/EI_y", {1, 10, 100, 1000, 10'000}},
            false,
            ribbon,
@@ -175,7 +175,7 @@ std::vector<StabilityMap> section_maps() {
           {"jump",
            "Half the rod stiffer, fixed force across",
            load,
-           {"EI of the clamped half / EI of the other", {1e-4, 1e-2, 1, 1e2, 1e4}},
+           {"EI clamped / EI free half", {1e-4, 1e-2, 1, 1e2, 1e4}},
            false,
            jumping,
            none}};
@@ -189,7 +189,7 @@ scene::Equilibrium solve_fam(const scene::Scene& scene, fam::Law law, int arcs) 
   return fam::solve(scene, options);
 }
 
-constexpr int most_load_steps = 400;
+constexpr int most_load_steps = 200;
 
 scene::Equilibrium solve_fem(const scene::Scene& scene, int order, int elements) {
   fem_reference::Options options;
@@ -197,7 +197,8 @@ scene::Equilibrium solve_fem(const scene::Scene& scene, int order, int elements)
   options.elements = elements;
   options.max_load_steps = most_load_steps;
   scene::Equilibrium answer = fem_reference::solve(scene, options);
-  if (answer.status == scene::Status::not_converged) answer.message = "work limit: " + answer.message;
+  const bool too_coarse = answer.message.find("too coarse") != std::string::npos;
+  if (answer.status == scene::Status::not_converged && !too_coarse) answer.message = "work limit: " + answer.message;
   return answer;
 }
 
@@ -211,25 +212,31 @@ std::vector<StabilityMap> stability_maps() {
 }
 
 std::vector<Contender> contenders() {
-  const auto fam_law = [](const std::string& name, const std::string& option, fam::Law law) {
-    return Contender{name, false, 256, "--method fam --law " + option,
-                     [law](const scene::Scene& scene, int arcs) { return solve_fam(scene, law, arcs); }};
+  const auto fam_law = [](const std::string& name, fam::Law law) {
+    return Contender{
+        name, 256, 16, INFINITY, "--method fam --law " + name + " --arcs ", [law](const scene::Scene& scene, int arcs) {
+          return solve_fam(scene, law, arcs);
+        }};
   };
+  // As many nodes for linear as for quadratic elements.
   const auto fem = [](const std::string& name, int order) {
-    return Contender{name, false, 32, "--method fem --order " + std::to_string(order),
+    return Contender{name,
+                     32 / order,
+                     16 / order,
+                     1000,
+                     "--method fem --order " + std::to_string(order) + " --elements ",
                      [order](const scene::Scene& scene, int elements) { return solve_fem(scene, order, elements); }};
   };
-  return {fam_law("published", "published", fam::Law::published),
-          fam_law("midpoint", "midpoint", fam::Law::midpoint),
-          fam_law("fourth_order", "fourth_order", fam::Law::fourth_order),
-          {"fam automatic", true, 0, "--method fam --tolerance-mm 0.01",
+  return {fam_law("published", fam::Law::published),
+          fam_law("midpoint", fam::Law::midpoint),
+          fam_law("fourth_order", fam::Law::fourth_order),
+          {"fam automatic", 0, 0, INFINITY, "--method fam --tolerance-mm 0.01",
            [](const scene::Scene& scene, int) { return solve_fam(scene, fam::Law::automatic, 0); }},
           fem("fem linear", 1),
           fem("fem quadratic", 2),
           // A Runge-Kutta shooting method joins the list here, with one line.
-          {"exact", true, 0, "--method exact", [](const scene::Scene& scene, int) {
-             return exact_reference::solve(
-                 scene, {exact_reference::RodModel::reissner, 1e-9, exact_reference::Way::boundary_value});
+          {"exact", 0, 0, INFINITY, "--method exact", [](const scene::Scene& scene, int) {
+             return exact_reference::solve(scene, {exact_reference::RodModel::reissner, 1e-9});
            }}};
 }
 

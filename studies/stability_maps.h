@@ -20,21 +20,22 @@ struct MapAxis {
 struct StabilityMap {
   std::string name, title;
   MapAxis x, y;
-  bool y_is_cells = false;  // y: number of arcs or elements; else `fixed_cells` of them
+  bool y_is_cells = false;  // y: number of arcs or elements; else the contender's `fixed_cells`
   std::function<scene::Scene(double x, double y)> scene;
   // Tip by another theory than the exact method's, where there is one; mm, base frame.
   std::function<std::optional<Eigen::Vector3d>(double x, double y)> closed_form;
 };
 
-constexpr int fixed_cells = 16;
-
-// A method with its number of arcs or elements (0: automatic).
+// A method with its number of arcs or elements.
 struct Contender {
   std::string name;
-  bool automatic;       // takes no number of arcs or elements
-  int most_cells;       // not asked beyond
-  std::string command;  // options of fam-studies solve, but for the number of cells
+  int most_cells;       // not asked beyond; 0: chooses its own
+  int fixed_cells;      // in maps that do not say
+  double largest_x;     // not asked beyond, where the work would be too much for a picture
+  std::string command;  // options of fam-studies solve, the number of cells last where it takes one
   std::function<scene::Equilibrium(const scene::Scene&, int cells)> solve;
+
+  bool automatic() const { return most_cells == 0; }
 };
 
 std::vector<StabilityMap> stability_maps();

@@ -17,21 +17,19 @@ std::string error_cell(const StabilityCell& cell, double value) {
 }
 
 std::string map_csv(const StabilityData& data, const StabilityMap& map) {
-  Table table({"method", map.x.label, map.y.label, "verdict", "error_over_L", "estimate_over_L", "status"});
+  Table table({"method", map.x.label, map.y.label, "cells", "verdict", "error_over_L", "estimate_over_L", "status"});
   for (const std::string& method : data.methods) {
     for (const double y : map.y.values) {
       for (const double x : map.x.values) {
         const StabilityCell* cell = data.find(map.name, method, x, y);
         if (cell == nullptr) continue;
         table.add({method, axis_text(x), map.y_is_cells && cell->cells == 0 ? "automatic" : axis_text(y),
-                   name(cell->judgement.verdict), error_cell(*cell, cell->judgement.error),
+                   std::to_string(cell->cells), name(cell->judgement.verdict), error_cell(*cell, cell->judgement.error),
                    error_cell(*cell, cell->judgement.estimate), cell->status});
       }
     }
   }
-  return table.csv({map.title + (map.y_is_cells ? "."
-                                                : ". Methods of fixed resolution: " + std::to_string(fixed_cells) +
-                                                      " arcs or elements."),
+  return table.csv({map.title + "; cells: arcs or elements, 0 where the method chooses.",
                     "error: distance of the tip from the exact one over L; estimate: the method's own."});
 }
 
