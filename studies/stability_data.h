@@ -30,9 +30,10 @@ struct Sensitivity {
   double load, growth;
 };
 
-// The scene of the first cell (smallest load, fewest cells) in which a method fails, kept as a file.
+// The scene of the smallest cell in which a method fails, kept as a file.
 struct BreakingScene {
-  std::string name, method, what, command;
+  std::string name, place, command;
+  StabilityCell cell;
   scene::Scene scene;
 };
 

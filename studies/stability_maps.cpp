@@ -21,7 +21,7 @@ constexpr double pi = std::numbers::pi;
 
 const std::vector<double> many_loads = {0.01, 0.1, 1, 10, 100, 1000, 10'000};
 const std::vector<double> cells = {1, 2, 4, 8, 16, 32, 64, 128, 256};
-const std::vector<double> loads = {0.1, 1, 3, 10, 30};
+const std::vector<double> loads = {0.1, 1, 10, 30};
 
 scene::Section uniform_section() {
   scene::Stiffness stiffness;
@@ -84,8 +84,8 @@ std::vector<StabilityMap> load_maps() {
            }},
           {"direction",
            "Direction of a fixed tip force: 0° pulls, 90° is across, 180° pushes (Euler: 2.467)",
-           {"angle to the rod, degrees", {0, 45, 90, 135, 170, 179, 179.9, 179.999, 180}},
-           {"|F| L²/EI", {1, 2.46, 2.48, 3, 10, 100}},
+           {"angle to the rod, degrees", {0, 90, 135, 170, 179, 179.9, 179.999, 180}},
+           {"|F| L²/EI", {1, 2.46, 2.48, 10, 100}},
            false,
            [](double angle, double f) {
              const Vector2d force = at_angle(angle, f);
@@ -95,7 +95,7 @@ std::vector<StabilityMap> load_maps() {
 }
 
 std::vector<StabilityMap> moment_maps() {
-  const MapAxis turns{"turns", {0.25, 0.5, 1, 2, 4, 7, 10}}, count{"arcs or elements", cells};
+  const MapAxis turns{"turns", {0.25, 1, 2, 5, 10}}, count{"arcs or elements", cells};
   return {
       {"torque", "Follower torque, M L/GJ in turns, with a transverse follower force of 0.1 EI/L²", turns, count, true,
        [](double turn, double) {
@@ -154,20 +154,20 @@ std::vector<StabilityMap> section_maps() {
   return {{"slenderness",
            "Transverse fixed force on a rod that shears and stretches",
            load,
-           {"EI/(kGA L²)", {1e-8, 1e-6, 1e-4, 1e-2, 1e-1, 1}},
+           {"EI/(kGA L²)", {1e-8, 1e-4, 1e-2, 1e-1, 1}},
            false,
            slender,
            none},
           {"twist_stiffness",
            "Follower force across and 0.3 of it as moment: torsion over bending stiffness",
            load,
-           {"GJ/EI", {1e-3, 1e-2, 1e-1, 1, 10, 1e3}},
+           {"GJ/EI", {1e-3, 1e-2, 1e-1, 1, 1e3}},
            false,
            twisting,
            none},
           {"ribbon",
            "Ribbon on edge, fixed force with a thousandth of it sideways",
-           {"F / toppling load", {0.5, 0.9, 0.99, 1.01, 1.1, 2, 4}},
+           {"F / toppling load", {0.5, 0.99, 1.01, 2, 4}},
            {"EI_z/EI_y", {1, 10, 100, 1000, 10'000}},
            false,
            ribbon,
@@ -188,8 +188,6 @@ scene::Equilibrium solve_fam(const scene::Scene& scene, fam::Law law, int arcs) 
   options.tolerance_mm = 1e-4 * scene::length_mm(scene);
   return fam::solve(scene, options);
 }
-
-constexpr int most_load_steps = 200;
 
 scene::Equilibrium solve_fem(const scene::Scene& scene, int order, int elements) {
   fem_reference::Options options;
@@ -218,11 +216,10 @@ std::vector<Contender> contenders() {
           return solve_fam(scene, law, arcs);
         }};
   };
-  // As many nodes for linear as for quadratic elements.
   const auto fem = [](const std::string& name, int order) {
     return Contender{name,
-                     32 / order,
-                     16 / order,
+                     16,
+                     8,
                      1000,
                      "--method fem --order " + std::to_string(order) + " --elements ",
                      [order](const scene::Scene& scene, int elements) { return solve_fem(scene, order, elements); }};

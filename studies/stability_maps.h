@@ -30,13 +30,15 @@ struct StabilityMap {
 struct Contender {
   std::string name;
   int most_cells;       // not asked beyond; 0: chooses its own
-  int fixed_cells;      // in maps that do not say
+  int fixed_cells;      // in maps that do not say; 0: not asked there
   double largest_x;     // not asked beyond, where the work would be too much for a picture
   std::string command;  // options of fam-studies solve, the number of cells last where it takes one
   std::function<scene::Equilibrium(const scene::Scene&, int cells)> solve;
 
   bool automatic() const { return most_cells == 0; }
 };
+
+constexpr int most_load_steps = 150;  // of finite elements, accepted and rejected
 
 std::vector<StabilityMap> stability_maps();
 std::vector<Contender> contenders();

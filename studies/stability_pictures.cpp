@@ -90,8 +90,11 @@ void draw_method(Svg& svg, const StabilityData& data, const StabilityMap& map, c
 std::string picture(const StabilityData& data, const StabilityMap& map) {
   const double panel_width = left + cell_width * static_cast<double>(map.x.values.size()) + gap;
   std::vector<double> row_heights;
-  for (std::size_t i = 0; i < data.methods.size(); ++i) {
-    const double height = 66 + cell_height * static_cast<double>(rows_of(data, map, data.methods[i]).size());
+  std::vector<std::string> methods;
+  std::copy_if(data.methods.begin(), data.methods.end(), std::back_inserter(methods),
+               [&](const std::string& method) { return !rows_of(data, map, method).empty(); });
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const double height = 66 + cell_height * static_cast<double>(rows_of(data, map, methods[i]).size());
     if (i % columns == 0) row_heights.push_back(0);
     row_heights.back() = std::max(row_heights.back(), height);
   }
@@ -101,8 +104,8 @@ std::string picture(const StabilityData& data, const StabilityMap& map) {
   svg.text({20, 24}, map.title, Anchor::start, 15);
   draw_legend(svg, 38);
   double top = head + 22;
-  for (std::size_t i = 0; i < data.methods.size(); ++i) {
-    draw_method(svg, data, map, data.methods[i], {left + panel_width * static_cast<double>(i % columns), top});
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    draw_method(svg, data, map, methods[i], {left + panel_width * static_cast<double>(i % columns), top});
     if (i % columns == columns - 1) top += row_heights[i / columns];
   }
   return svg.str();
