@@ -131,12 +131,14 @@ std::string mechanism(const std::string& map) {
            "not be longer. Below it N and 2N arcs can agree by chance.";
   }
   if (map == "fixed") {
-    return "The same length, now a boundary layer at the clamp; finite elements miss it first with linear shapes.";
+    return "The same length, now of a boundary layer at the clamp, where the rod turns into the force.";
   }
   if (map == "direction") {
     return "Beyond the Euler load a push off the axis by a thousandth of a degree has two mirrored answers and an "
-           "unstable one between them: the finite elements halve their load step there until the work is used up; at "
-           "180° exactly every method stays on the straight rod and says that it is unstable.";
+           "unstable one between them: the finite elements shorten their load step there until the work is used up, "
+           "and "
+           "between 2.46 and 2.48 a mesh errs in the Euler load itself, so that two coarse meshes can agree; at 180° "
+           "exactly every method stays on the straight rod.";
   }
   if (map == "torque") {
     return "Twist turns the bending plane along an arc: the published law applies bend and twist one after the other, "
@@ -186,7 +188,9 @@ std::string stability_page(const StabilityData& data) {
 farther off and the method's own error estimate is at least a third of the error; **not flagged** where it is less;
 **wrong branch** where a not flagged answer is another equilibrium (its stability is another, or four times the
 resolution does not move it). With fixed resolution the methods estimate their error from two resolutions; *fam
-automatic* chooses its arcs for 1e-4 L; finite elements may try {} load steps and are not asked beyond |F| L²/EI = 1000.
+automatic* chooses its arcs for 1e-4 L; finite elements may try {} load steps and are not asked
+beyond |F| L²/EI = 1000. Empty cells: not asked, or not solved by the exact reference. The tip's position alone decides,
+not its rotation.
 
 {}
 ## Wrong and not flagged
