@@ -118,6 +118,7 @@ class Stability {
     if (cells > contender.most_cells || x > contender.largest_x || !truth.converged()) return;
     if (contender.automatic() && map.y_is_cells && y != map.y.values.front()) return;
     if (cells == 0 && !contender.automatic()) return;
+    if ((map.name == "precision" || !contender.only_in.empty()) && contender.only_in != map.name) return;
     const scene::Scene scene = map.scene(x, y);
     const scene::Equilibrium answer = contender.solve(scene, cells);
     const auto refined = [&] { return contender.solve(scene, 4 * cells); };
@@ -149,6 +150,7 @@ class Stability {
   // the loads and of the cells.
   void collect_breaking_scenes() {
     for (const Contender& contender : contenders_) {
+      if (!contender.only_in.empty()) continue;
       const StabilityCell* worst = nullptr;
       const auto rank = [](Verdict v) { return is_silent(v) ? 3 : v == Verdict::flagged ? 1 : 2; };
       for (const StabilityCell& cell : data_.cells) {

@@ -4,6 +4,7 @@
 #include "exact_reference/solve.h"
 #include "fam/solve.h"
 #include "fem_reference/solve.h"
+#include "studies/planar_march.h"
 
 #include <Eigen/Geometry>
 
@@ -94,8 +95,34 @@ std::vector<StabilityMap> load_maps() {
            [](double angle, double f) { return fixed_elastica(at_angle(angle, f)); }}};
 }
 
+StabilityMap precision_map() {
+  return {"precision",
+          "Transverse follower force: the same march in double and in single precision",
+          {"|F| L²/EI", {0.01, 0.1, 1, 10, 100}},
+          {"arcs", {1, 4, 16, 64, 256, 1024, 4096, 16384, 65536}},
+          true,
+          [](double f, double) {
+            return tip_force(scene::Frame::follower, {0, f, 0});
+          },
+          [](double f, double) {
+            return follower_elastica({0, f}, 0);
+          }};
+}
+
+template <class T>
+scene::Equilibrium solve_in_plane(const scene::Scene& scene, int arcs) {
+  const double load = std::get<scene::Force>(scene.loads.front()).value_N[1] / force_unit_N;
+  const std::array<T, 2> tip = planar_march<T>(load, arcs), finer = planar_march<T>(load, 2 * arcs);
+  scene::Equilibrium result;
+  result.status = scene::Status::converged;
+  result.stations = {{length_mm, {Eigen::Matrix3d::Identity(), length_mm * Vector3d(tip[0], tip[1], 0)}}};
+  // Second order: the finer march is off by a third of the difference.
+  result.error_estimate_mm = length_mm * 4 / 3 * std::hypot(tip[0] - finer[0], tip[1] - finer[1]);
+  return result;
+}
+
 std::vector<StabilityMap> moment_maps() {
-  const MapAxis turns{"turns", {0.25, 1, 2, 5, 10}}, count{"arcs or elements", cells};
+  const MapAxis turns{"turns", {0.25, 1.25, 2.25, 5.25, 9.75}}, count{"arcs or elements", cells};
   return {
       {"torque", "Follower torque, M L/GJ in turns, with a transverse follower force of 0.1 EI/L²", turns, count, true,
        [](double turn, double) {
@@ -168,7 +195,7 @@ std::vector<StabilityMap> section_maps() {
           {"ribbon",
            "Ribbon on edge, fixed force with a thousandth of it sideways",
            {"F / toppling load", {0.5, 0.99, 1.01, 2, 4}},
-           {"EI_z/EI_y", {1, 10, 100, 1000, 10'000}},
+           {"EI_z/EI_y", {1, 10, 10'000}},
            false,
            ribbon,
            none},
@@ -204,7 +231,7 @@ scene::Equilibrium solve_fem(const scene::Scene& scene, int order, int elements)
 
 std::vector<StabilityMap> stability_maps() {
   std::vector<StabilityMap> maps;
-  for (const auto& group : {load_maps(), moment_maps(), section_maps()})
+  for (const auto& group : {load_maps(), moment_maps(), section_maps(), {precision_map()}})
     maps.insert(maps.end(), group.begin(), group.end());
   return maps;
 }
@@ -232,9 +259,12 @@ std::vector<Contender> contenders() {
           fem("fem linear", 1),
           fem("fem quadratic", 2),
           // A Runge-Kutta shooting method joins the list here, with one line.
-          {"exact", 0, 0, INFINITY, "--method exact", [](const scene::Scene& scene, int) {
+          {"exact", 0, 0, INFINITY, "--method exact",
+           [](const scene::Scene& scene, int) {
              return exact_reference::solve(scene, {exact_reference::RodModel::reissner, 1e-9});
-           }}};
+           }},
+          {"midpoint in double precision", 65536, 0, INFINITY, "", solve_in_plane<double>, "precision"},
+          {"midpoint in single precision", 65536, 0, INFINITY, "", solve_in_plane<float>, "precision"}};
 }
 
 std::optional<scene::Scene> turned_to_follower(const scene::Scene& scene, const scene::Equilibrium& equilibrium) {

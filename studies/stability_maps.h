@@ -35,6 +35,8 @@ struct Contender {
   std::string command;  // options of fam-studies solve, the number of cells last where it takes one
   std::function<scene::Equilibrium(const scene::Scene&, int cells)> solve;
 
+  std::string only_in = "";  // the one map that asks it, and asks no other
+
   bool automatic() const { return most_cells == 0; }
 };
 
