@@ -2,6 +2,7 @@
 // run resumes where it was stopped and several processes share one folder.
 //   random_scenes scene SEED            one scene as a file on standard output
 //   random_scenes run FROM TO FOLDER    FROM and TO multiples of the block; every 500th scene by finite elements too
+//   random_scenes second FOLDER         a second opinion on every scene in which FAM is wrong and silent
 //   random_scenes sum FOLDER OUTPUT     counts.csv, failures.csv and README.md from the blocks
 //   random_scenes check FOLDER LIST     fails on a listed outcome (random_study.h) of a seed that LIST does not hold
 #include "scene/scene_file.h"
@@ -108,6 +109,15 @@ std::vector<RandomOutcome> all_outcomes(const fs::path& folder) {
   return all;
 }
 
+void second_opinions(const fs::path& folder) {
+  const std::vector<RandomOutcome> all = all_outcomes(folder);
+  std::ofstream file(folder / "second.txt");
+  for (const RandomOutcome& o : all) {
+    if (o.method != "fam" || o.outcome.rfind("wrong", 0) != 0 || o.outcome == "wrong but flagged") continue;
+    file << studies::to_line(studies::second_opinion(o.seed)) << std::endl;
+  }
+}
+
 // failures.csv: the head line, then outcomes.
 std::set<std::uint64_t> listed_seeds(const fs::path& path) {
   std::set<std::uint64_t> seeds;
@@ -140,6 +150,8 @@ int main(int argc, char** argv) {
     fs::create_directories(arguments[3]);
     const std::uint64_t to = std::stoull(arguments[2]);
     for (std::uint64_t seed = std::stoull(arguments[1]); seed < to; seed += block) run_block(seed, arguments[3]);
+  } else if (command == "second" && arguments.size() == 2) {
+    second_opinions(arguments[1]);
   } else if (command == "sum" && arguments.size() == 3) {
     for (const auto& [name, text] : studies::random_files(all_outcomes(arguments[1]))) {
       studies::write_file(fs::path(arguments[2]) / name, text);
@@ -147,7 +159,9 @@ int main(int argc, char** argv) {
   } else if (command == "check" && arguments.size() == 3) {
     return check(arguments[1], arguments[2]);
   } else {
-    fmt::print(stderr, "random_scenes scene SEED | run FROM TO FOLDER | sum FOLDER OUTPUT | check FOLDER LIST\n");
+    fmt::print(
+        stderr,
+        "random_scenes scene SEED | run FROM TO FOLDER | second FOLDER | sum FOLDER OUTPUT | check FOLDER LIST\n");
     return 2;
   }
   return 0;

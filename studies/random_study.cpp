@@ -71,6 +71,22 @@ void random_outcomes(std::uint64_t seed, bool with_finite_elements,
   if (with_finite_elements) add("fem", solve_fem(scene, 50), [&] { return solve_fem(scene, 200); });
 }
 
+RandomOutcome second_opinion(std::uint64_t seed) {
+  const scene::Scene scene = random_scene(seed);
+  const double length_mm = scene::length_mm(scene);
+  const scene::Equilibrium truth =
+      exact_reference::solve(scene, {exact_reference::RodModel::reissner, random_exact_tolerance});
+  fem_reference::Options options;
+  options.elements = 100;
+  options.estimate_error = false;
+  options.initial_load_step = 0.01;
+  options.largest_rotation_rad = 0.1;
+  options.max_load_steps = 3000;
+  const scene::Equilibrium answer = fem_reference::solve(scene, options);
+  const Judgement judged = judge(answer, truth, length_mm, [&] { return answer; });
+  return {seed, loads_of(scene), "fem in small steps", name(judged.verdict), judged.error, judged.estimate};
+}
+
 bool is_listed(const RandomOutcome& outcome) {
   static const std::set<std::string> fine = {"converged",     "right to 1e-6",        "right to 1e-4",
                                              "right to 1e-2", "not converged either", "wrong but flagged"};

@@ -29,6 +29,10 @@ struct RandomOutcome {
 void random_outcomes(std::uint64_t seed, bool with_finite_elements,
                      const std::function<void(const RandomOutcome&)>& report);
 
+// A second opinion on the judge: 100 quadratic finite elements in steps of at most 0.1 rad, method "fem in small
+// steps".
+RandomOutcome second_opinion(std::uint64_t seed);
+
 // Silent or lost answers, which the results list by seed.
 bool is_listed(const RandomOutcome& outcome);
 

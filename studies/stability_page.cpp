@@ -159,7 +159,7 @@ std::string mechanism(const std::string& map) {
   }
   if (map == "precision") {
     return "In double precision the error falls as 1/N²; in single precision each arc adds its round-off of 6e-8, so "
-           "that the sum meets the law's error near a thousand arcs and grows beyond.";
+           "that the sum meets the law's error between 64 and 1000 arcs and grows beyond.";
   }
   if (map == "ribbon") {
     return "At the toppling load 4.0126 sqrt(EI_y GJ)/L² the ribbon leaves its plane, within a few hundredths of the "
