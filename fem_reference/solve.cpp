@@ -121,7 +121,22 @@ scene::Equilibrium solve_on(const std::vector<scene::Span>& spans, const std::ve
   return equilibrium(spans, cells, model, step_to_full_load(model, stepping_options(options)), options);
 }
 
+// Meshes whose tips lie farther apart than this times L are too coarse to trust the order of the error.
+constexpr double asymptotic_difference = 1e-3;
+
+// Whether an element turns by more than pi/2 from end to end.
+bool turns_far(const std::vector<scene::Station>& stations, int order) {
+  const auto step = static_cast<std::size_t>(order);
+  for (std::size_t i = step; i < stations.size(); i += step) {
+    const Eigen::Matrix3d turn = stations[i - step].X_BS.rotation_BS.transpose() * stations[i].X_BS.rotation_BS;
+    if (turn.trace() < 1) return true;
+  }
+  return false;
+}
+
 // Error of the tip on `cells` from the tip on another mesh: the error is c h^q with q = 2 order, doubled for safety.
+// Of meshes too coarse for that, twice the distance of the tips, and L at least where an element turns by more than
+// pi/2: two such meshes can agree on what is no solution.
 double error_estimate_mm(const std::vector<scene::Span>& spans, const std::vector<int>& cells, const Options& options,
                          const scene::Equilibrium& found) {
   std::vector<int> other = cells;
@@ -136,6 +151,10 @@ double error_estimate_mm(const std::vector<scene::Span>& spans, const std::vecto
   const scene::Equilibrium second = solve_on(spans, other, options);
   if (!second.converged()) return std::numeric_limits<double>::quiet_NaN();
   const double difference_mm = (second.tip().position_B_mm - found.tip().position_B_mm).norm();
+  const double length_mm = spans.back().end_mm;
+  if (difference_mm > asymptotic_difference * length_mm) {
+    return std::max(2 * difference_mm, turns_far(found.stations, options.order) ? length_mm : 0);
+  }
   const double factor = std::pow(finer ? 0.5 : ratio, 2 * options.order);
   return 2 * difference_mm / std::abs(factor - 1);
 }

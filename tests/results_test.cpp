@@ -86,7 +86,7 @@ TEST(Results, AreWhatTheStudiesWrite) {
   ASSERT_EQ(std::system(command.c_str()), 0);
   int compared = 0;
   for (const auto& entry : fs::directory_iterator(fs::path(RESULTS_DIR) / RESULTS_STUDY)) {
-    if (!is_accuracy_file(entry.path())) continue;
+    if (entry.is_directory() || !is_accuracy_file(entry.path())) continue;
     const fs::path again = folder / RESULTS_STUDY / entry.path().filename();
     EXPECT_EQ(first_difference(contents(entry.path()), contents(again)), "") << entry.path();
     ++compared;

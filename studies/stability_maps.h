@@ -1,0 +1,53 @@
+// The maps of the stability study: which scene stands in which cell, and which methods are asked.
+#pragma once
+
+#include "scene/equilibrium.h"
+#include "scene/scene.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace studies {
+
+struct MapAxis {
+  std::string label;  // with its unit
+  std::vector<double> values;
+};
+
+// One scene a cell. Rods of 100 mm; the scale is in the axes.
+struct StabilityMap {
+  std::string name, title;
+  MapAxis x, y;
+  bool y_is_cells = false;  // y: number of arcs or elements; else the contender's `fixed_cells`
+  std::function<scene::Scene(double x, double y)> scene;
+  // Tip by another theory than the exact method's, where there is one; mm, base frame.
+  std::function<std::optional<Eigen::Vector3d>(double x, double y)> closed_form;
+};
+
+// A method with its number of arcs or elements.
+struct Contender {
+  std::string name;
+  int most_cells;       // not asked beyond; 0: chooses its own
+  int fixed_cells;      // in maps that do not say; 0: not asked there
+  double largest_x;     // not asked beyond, where the work would be too much for a picture
+  std::string command;  // options of fam-studies solve, the number of cells last where it takes one
+  std::function<scene::Equilibrium(const scene::Scene&, int cells)> solve;
+
+  std::string only_in = "";  // the one map that asks it, and asks no other
+
+  bool automatic() const { return most_cells == 0; }
+};
+
+constexpr int most_load_steps = 150;  // of finite elements, accepted and rejected
+
+std::vector<StabilityMap> stability_maps();
+std::vector<Contender> contenders();
+
+// The scene with its fixed point loads replaced by follower loads of the same components in the sections where
+// `equilibrium` has them: it then has the same equilibrium, and can be marched from the tip. Empty where a load is
+// distributed or weight in the base frame, or acts elsewhere than at the tip.
+std::optional<scene::Scene> turned_to_follower(const scene::Scene& scene, const scene::Equilibrium& equilibrium);
+
+}  // namespace studies
