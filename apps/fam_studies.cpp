@@ -9,6 +9,7 @@
 #include "studies/study1.h"
 #include "studies/study2.h"
 #include "studies/torsion.h"
+#include "studies/work_precision.h"
 
 namespace {
 
@@ -52,7 +53,8 @@ int main(int argc, char** argv) {
       {"fe-verification", studies::fe_verification},
       {"segmentation", studies::segmentation},
       {"torsion", studies::torsion},
-      {"study2", studies::study2}};
+      {"study2", studies::study2},
+      {"work-precision", studies::work_precision}};
   for (const auto& [name, study] : studies) app.add_subcommand(name, "Run this study and write its results");
   app.add_subcommand("all", "Run every study");
   for (CLI::App* command : app.get_subcommands({})) {
