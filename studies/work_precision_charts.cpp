@@ -38,8 +38,10 @@ Look look_of(const std::string& series) {
 
 // A mark of a picture: one resolution, on one scene or over several.
 struct Mark {
-  double time_us, error;  // error NaN: failed
+  double time_us;
+  double error;  // the largest where it converged; NaN: nowhere
   std::string label;
+  std::size_t failed, scenes;
 };
 
 double median(std::vector<double> values) {
@@ -54,17 +56,18 @@ std::vector<Mark> marks_of(const WorkData& data, const std::vector<std::string>&
   std::vector<Mark> marks;
   for (const std::string& label : data.labels(series, model, scenes)) {
     std::vector<double> times;
-    double error = 0;
+    Mark mark{0, std::numeric_limits<double>::quiet_NaN(), label, 0, scenes.size()};
     for (const std::string& scene : scenes) {
       for (const WorkPoint* p : data.of(scene, series, model)) {
         if (p->label != label || !p->time) continue;
         times.push_back(p->time->median_us);
-        error = std::isfinite(p->error) && std::isfinite(error) ? std::max(error, p->error)
-                                                                : std::numeric_limits<double>::quiet_NaN();
+        if (p->converged()) mark.error = std::fmax(mark.error, std::max(p->error, work_error_floor));
+        else ++mark.failed;
       }
     }
-    if (times.size() == scenes.size()) marks.push_back({median(times), std::max(error, work_error_floor), label});
-    if (times.size() == scenes.size() && std::isnan(error)) marks.back().error = error;
+    if (times.size() != scenes.size()) continue;
+    mark.time_us = median(times);
+    marks.push_back(mark);
   }
   return marks;
 }
@@ -76,14 +79,23 @@ Point place(const Mark& mark) {
 
 void draw_series(Panel& panel, const std::vector<Mark>& marks, const Look& look) {
   std::vector<Point> points;
+  std::size_t failed = 0;
   for (const Mark& mark : marks) {
     if (std::isfinite(mark.error)) points.push_back(place(mark));
-    else panel.failure(place(mark), look.colour);
+    if (mark.failed > 0) panel.failure({place(mark).x, failure_error}, look.colour);
+    failed = std::max(failed, mark.failed);
   }
-  if (points.empty()) return;
+  if (points.empty()) {
+    if (!marks.empty()) panel.name({place(marks.back()).x, failure_error}, look.name, look.colour);
+    return;
+  }
+  const std::size_t scenes = marks.front().scenes;
+  const bool partly = marks.back().failed > 0 && scenes > 1;
+  const std::string share =
+      partly ? " (" + std::to_string(scenes - failed) + " of " + std::to_string(scenes) + ")" : "";
   panel.curve(points, {look.colour, 1.4, look.dash});
   panel.dots(points, look.colour, 2.4);
-  if (look.name[0] != 0) panel.name(points.back(), look.name, look.colour);
+  if (look.name[0] != 0) panel.name(points.back(), look.name + share, look.colour);
 }
 
 // Marks that no other is both faster and more accurate than, by rising time.
@@ -91,7 +103,7 @@ std::vector<Mark> pareto_front(std::vector<Mark> marks) {
   std::sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) { return a.time_us < b.time_us; });
   std::vector<Mark> front;
   for (const Mark& mark : marks) {
-    if (std::isfinite(mark.error) && (front.empty() || mark.error < front.back().error)) front.push_back(mark);
+    if (mark.failed == 0 && (front.empty() || mark.error < front.back().error)) front.push_back(mark);
   }
   return front;
 }
@@ -103,7 +115,6 @@ void draw_front(Svg& svg, Panel& panel, const std::vector<Mark>& front) {
     if (!stairs.empty()) stairs.push_back({place(mark).x, stairs.back().y});
     stairs.push_back(place(mark));
   }
-  stairs.push_back({time_axis.high, stairs.back().y});
   panel.curve(stairs, {"#b8b8b8", 4, ""});
   double last_y = -1e9;
   for (const Mark& mark : front) {
