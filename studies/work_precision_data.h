@@ -48,10 +48,11 @@ constexpr double lost_error = 0.1;          // converged, but so far away: anoth
 double time_to_us(const WorkData& data, const std::string& scene, const std::string& series, const std::string& model,
                   double target, bool warm = false);
 
-// Median over the scenes of a group of time_to_us, over those that reach the target, and their number.
+// Median over the scenes of a group of time_to_us, over those that reach the target.
 struct GroupTime {
   double median_us = 0;  // NaN where none reaches it
   int reached = 0;
+  int tried = 0;  // and not refused
 };
 GroupTime group_time(const WorkData& data, const WorkGroup& group, const std::string& series, const std::string& model,
                      double target, bool warm = false);

@@ -25,23 +25,39 @@ bool holds(const WorkData& data, const std::string& scene, const std::string& se
   return false;
 }
 
+// Scenes of a group where a resolution was tried and not refused, and where it is within the target.
+struct Share {
+  int holds = 0, tried = 0;
+};
+
+Share share_of(const WorkData& data, const WorkGroup& group, const std::string& series, const std::string& model,
+               const std::string& label, double target) {
+  Share share;
+  for (const std::string& scene : group.scenes) {
+    for (const WorkPoint* p : data.of(scene, series, model)) {
+      if (p->label != label || p->status == "unsupported") continue;
+      ++share.tried;
+      if (p->converged() && p->error <= target) ++share.holds;
+    }
+  }
+  return share;
+}
+
 // The coarsest resolution within the target on as many scenes of the group as any; "32 [15/16]" where these are not
 // all, "–" where there is none.
 std::string coarsest(const WorkData& data, const WorkGroup& group, const std::string& series, const std::string& model,
                      double target) {
   std::string best_label;
-  std::ptrdiff_t best = 0;
+  Share best;
   for (const std::string& label : data.labels(series, model, group.scenes)) {
-    const auto count = std::count_if(group.scenes.begin(), group.scenes.end(), [&](const std::string& scene) {
-      return holds(data, scene, series, model, label, target);
-    });
-    if (count <= best) continue;
-    best = count;
+    const Share share = share_of(data, group, series, model, label, target);
+    if (share.holds <= best.holds) continue;
+    best = share;
     best_label = label;
   }
-  if (best == 0) return "–";
-  const auto scenes = static_cast<std::ptrdiff_t>(group.scenes.size());
-  return best == scenes ? best_label : fmt::format("{} [{}/{}]", best_label, best, scenes);
+  if (best.holds == 0) return "–";
+  if (best.holds == static_cast<int>(group.scenes.size())) return best_label;
+  return fmt::format("{} [{}/{}]", best_label, best.holds, best.tried);
 }
 
 bool took_part(const WorkData& data, const WorkGroup& group, const std::string& series, const std::string& model) {
@@ -130,12 +146,13 @@ std::string failures_table(const WorkData& data) {
   return table.markdown();
 }
 
-// "12.3 (×1.0)", with "5/16" where not all scenes of the group reach the target.
+// "12.3 (×1.0)", with "[5/16]" where not all scenes of the group reach the target.
 std::string time_cell(const GroupTime& time, double best, std::size_t scenes) {
   if (time.reached == 0) return "–";
-  const std::string share =
-      static_cast<std::size_t>(time.reached) < scenes ? fmt::format(" [{}/{}]", time.reached, scenes) : "";
-  return fmt::format("{} (×{}){}", fixed(time.median_us, 1), fixed(time.median_us / best, 1), share);
+  const bool all = static_cast<std::size_t>(time.reached) == scenes;
+  const std::string share = all ? "" : fmt::format(" [{}/{}]", time.reached, time.tried);
+  const double ratio = time.median_us / best;
+  return fmt::format("{} (×{}){}", fixed(time.median_us, 1), fixed(ratio, ratio < 1 ? 2 : 1), share);
 }
 
 struct Row {
@@ -254,9 +271,9 @@ Newton with forward differences on the six components of the base wrench, from z
 
 ## Coarsest resolution within a tip error, 16 scenes at once
 
-Arcs, steps, elements, or the tolerance asked for; [holds/scenes] where it is not within the error on all 16 and no other
-resolution is on more; – on none. Finite elements beyond 50 were tried on two scenes and Kirchhoff ones on three only.
-Methods that never get there are left out.
+Arcs, steps, elements, or the tolerance asked for; [scenes within the error/scenes tried] where these are not all 16;
+no other resolution tried is within it on more. Finite elements beyond 50, and Kirchhoff ones, were tried on one or two
+of the 16 only. Methods that never get there are left out.
 
 Follower loads:
 
@@ -273,8 +290,8 @@ when they are not in one plane.
 ## Where methods fail
 
 At the finest resolution of each. Unsupported: refused with a message. Another equilibrium: converged, but more than
-{lost} L away; plain Newton keeps to no branch, and its residual cannot tell. Finer yet worse: some resolution is at least twice as far
-away as a coarser one (errors above 1e-9 L).
+{lost} L away; plain Newton keeps to no branch, and its residual cannot tell. Finer yet worse: some resolution is at
+least twice as far away as a coarser one (errors above 1e-9 L).
 
 {failures}
 ## Files
@@ -343,7 +360,7 @@ FAM pays for load steps and checks that keep it on the branch from no load, whic
 ## Time to an accuracy
 
 Median over the scenes, µs, of the cheapest resolution within the tip error; in parentheses over the best in the table that
-gets there on all scenes, cold; [reached/scenes] where not all do, the median then being over those.
+gets there on all scenes, cold; [reached/tried] where not all do, the median then being over those that do.
 
 {tables})",
       fmt::arg("machine", machine_line()), fmt::arg("fam_ms", printed_fam_ms), fmt::arg("fe_ms", printed_fe_ms),

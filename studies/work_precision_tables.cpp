@@ -113,11 +113,16 @@ double time_to_us(const WorkData& data, const std::string& scene, const std::str
 GroupTime group_time(const WorkData& data, const WorkGroup& group, const std::string& series, const std::string& model,
                      double target, bool warm) {
   std::vector<double> times;
+  GroupTime result;
   for (const std::string& scene : group.scenes) {
+    const std::vector<const WorkPoint*> points = data.of(scene, series, model);
+    if (!points.empty() && points.front()->status != "unsupported") ++result.tried;
     const double time = time_to_us(data, scene, series, model, target, warm);
     if (std::isfinite(time)) times.push_back(time);
   }
-  return {median(times), static_cast<int>(times.size())};
+  result.median_us = median(times);
+  result.reached = static_cast<int>(times.size());
+  return result;
 }
 
 std::map<std::string, std::string> work_precision_tables(const WorkData& data) {
