@@ -8,7 +8,7 @@
 namespace studies {
 namespace {
 
-const Axis time_axis{"median time of a solve, µs", 0.1, 1e6, true};
+const Axis time_axis{"median time of a solve, µs", 0.01, 1e6, true};
 const Axis error_axis{"tip error / L", 1e-14, 10, true};
 constexpr double failure_error = 5;  // where crosses stand: the upper edge
 
@@ -79,11 +79,9 @@ Point place(const Mark& mark) {
 
 void draw_series(Panel& panel, const std::vector<Mark>& marks, const Look& look) {
   std::vector<Point> points;
-  std::size_t failed = 0;
   for (const Mark& mark : marks) {
     if (std::isfinite(mark.error)) points.push_back(place(mark));
     if (mark.failed > 0) panel.failure({place(mark).x, failure_error}, look.colour);
-    failed = std::max(failed, mark.failed);
   }
   if (points.empty()) {
     if (!marks.empty()) panel.name({place(marks.back()).x, failure_error}, look.name, look.colour);
@@ -92,7 +90,7 @@ void draw_series(Panel& panel, const std::vector<Mark>& marks, const Look& look)
   const std::size_t scenes = marks.front().scenes;
   const bool partly = marks.back().failed > 0 && scenes > 1;
   const std::string share =
-      partly ? " (" + std::to_string(scenes - failed) + " of " + std::to_string(scenes) + ")" : "";
+      partly ? " (" + std::to_string(scenes - marks.back().failed) + " of " + std::to_string(scenes) + ")" : "";
   panel.curve(points, {look.colour, 1.4, look.dash});
   panel.dots(points, look.colour, 2.4);
   if (look.name[0] != 0) panel.name(points.back(), look.name + share, look.colour);
@@ -148,9 +146,9 @@ void draw_panel(Svg& svg, Point corner, const WorkData& data, const std::vector<
 }
 
 const char* legend =
-    "Broad grey line: Pareto front, labels: arcs, steps, elements or tolerance. × failed. Shaded: the exact rod's own "
-    "error. "
-    "Dashed FE: whole load first.";
+    "Broad grey line: Pareto front; labels: arcs, steps, elements or tolerance. × failed (on a scene at least; the "
+    "dot: on "
+    "the others). Shaded: the exact rod's own error, 1e-12 at least. Dashed FE: whole load first.";
 
 bool timed(const WorkData& data, const std::string& scene) {
   return std::any_of(data.points.begin(), data.points.end(),

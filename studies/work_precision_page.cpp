@@ -17,14 +17,6 @@ std::string target_text(double target) {
   return scientific(target, 0) + " L";
 }
 
-bool holds(const WorkData& data, const std::string& scene, const std::string& series, const std::string& model,
-           const std::string& label, double target) {
-  for (const WorkPoint* p : data.of(scene, series, model)) {
-    if (p->label == label) return p->converged() && p->error <= target;
-  }
-  return false;
-}
-
 // Scenes of a group where a resolution was tried and not refused, and where it is within the target.
 struct Share {
   int holds = 0, tried = 0;
@@ -283,8 +275,9 @@ Fixed loads:
 {fixed}
 ## Coarsest resolution within 1e-5 L, scene by scene
 
-An empty cell: not tried. (On fixed loads the exact reference meets 1e-12 L whatever it is asked for.) In space the published law has order 1; fixed loads are outside it, and outside the closed form
-when they are not in one plane.
+An empty cell: not tried. On fixed loads the exact reference meets 1e-12 L
+whatever it is asked for; at 1e-12 L it is the judge itself. In space the published law has order 1; fixed loads are outside it. The closed
+form is for tip loads in one plane.
 
 {single}
 ## Where methods fail
