@@ -18,7 +18,7 @@ namespace studies {
 namespace {
 
 const std::string quick_scene = "P1_follower";
-const std::vector<std::string> many_meshes = {"S4_fixed", "study2_gravity_y", "work_precision_load_100"};
+const std::vector<std::string> many_meshes = {"S4_fixed", "study2_gravity_y"};
 const std::vector<std::string> most_meshes = {"P2_fixed", "S4_follower"};
 
 std::vector<WorkGroup> scene_groups() {

@@ -85,8 +85,10 @@ void add_exact(std::vector<Competitor>& list, bool with_shear) {
   }
 }
 
-std::vector<int> element_counts(FeMeshes meshes, bool with_shear) {
-  if (meshes == FeMeshes::few) return with_shear ? std::vector{1, 4, 16, 50} : std::vector<int>{};
+std::vector<int> element_counts(FeMeshes meshes, bool with_shear, int order) {
+  if (meshes == FeMeshes::few && !with_shear) return {};
+  if (meshes == FeMeshes::few && order == 1) return {1, 4, 16, 50};
+  if (meshes == FeMeshes::few) return {1, 2, 4, 8, 16, 32, 50};
   std::vector<int> counts = {1, 2, 4, 8, 16, 32, 50, 100};
   if (meshes == FeMeshes::most && with_shear) counts.insert(counts.end(), {200, 400});
   return counts;
@@ -95,7 +97,7 @@ std::vector<int> element_counts(FeMeshes meshes, bool with_shear) {
 void add_finite_elements(std::vector<Competitor>& list, bool with_shear, FeMeshes meshes) {
   for (const int order : {1, 2}) {
     for (const bool whole_load : {true, false}) {
-      for (const int elements : element_counts(meshes, with_shear)) {
+      for (const int elements : element_counts(meshes, with_shear, order)) {
         fem_reference::Options options;
         options.elements = elements;
         options.order = order;
@@ -124,7 +126,7 @@ std::vector<Competitor> competitors(FeMeshes meshes) {
     add_shooting(list, with_shear);
     add_exact(list, with_shear);
     if (!with_shear) {
-      list.push_back({"closed form", "Kirchhoff", "elliptic functions", "elliptic functions", elastica_method()});
+      list.push_back({"closed form", "Kirchhoff", "elliptic functions", "exact", elastica_method()});
     }
     add_finite_elements(list, with_shear, meshes);
   }
