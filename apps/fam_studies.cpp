@@ -10,6 +10,7 @@
 #include "studies/study1.h"
 #include "studies/study2.h"
 #include "studies/torsion.h"
+#include "studies/work_precision.h"
 
 namespace {
 
@@ -54,6 +55,7 @@ int main(int argc, char** argv) {
       {"segmentation", studies::segmentation},
       {"torsion", studies::torsion},
       {"study2", studies::study2},
+      {"work-precision", studies::work_precision},
       {"stability", studies::stability}};
   for (const auto& [name, study] : studies) app.add_subcommand(name, "Run this study and write its results");
   app.add_subcommand("all", "Run every study");

@@ -1,5 +1,7 @@
 #include "studies/exact_method.h"
 
+#include <fmt/format.h>
+
 namespace studies {
 namespace {
 
@@ -10,7 +12,10 @@ class ExactMethod : public Method {
   std::string name() const override {
     return options_.model == exact_reference::RodModel::kirchhoff ? "exact kirchhoff" : "exact";
   }
-  std::string resolution() const override { return "round-off"; }
+  std::string resolution() const override {
+    const bool full = options_.tolerance == exact_reference::Options().tolerance;
+    return full ? "round-off" : fmt::format("tolerance {:.0e} L", options_.tolerance);
+  }
   scene::Equilibrium solve(const scene::Scene& scene) const override { return exact_reference::solve(scene, options_); }
 
   std::function<void()> bare_solve(const scene::Scene& scene) const override {

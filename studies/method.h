@@ -20,6 +20,9 @@ class Method {
 
   // The solve alone, ready to be called again and again: no reading, no error estimate that is not a part of it.
   virtual std::function<void()> bare_solve(const scene::Scene& scene) const = 0;
+
+  // The same from the solution under slightly smaller loads; empty where the method cannot start from a solution.
+  virtual std::function<void()> warm_solve(const scene::Scene&) const { return {}; }
 };
 
 }  // namespace studies

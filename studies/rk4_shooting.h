@@ -1,0 +1,78 @@
+// The competitor "plain shooting": the Cosserat rod equations as they are commonly integrated in continuum robotics.
+// The internal force and moment at the clamp are guessed, the rod is integrated from the clamp to the tip by the
+// classical Runge-Kutta method with steps of fixed length, and Newton's method with forward differences mends the
+// guess until what is left beyond the tip vanishes:
+//
+//   p' = R v   q' = 1/2 q (0, u)   n' = -f_B - R f_S   m' = -p' x n   u = u0 + K_u^-1 R^T m   v = e_x + K_v^-1 R^T n
+//
+// all in the base frame, q a unit quaternion, normalised after each step. No load steps, no damping, no safeguard: from
+// zero, or from a guess that is handed in. Units inside: the length L of the rod, the least bending or torsional
+// stiffness EI, forces EI/L^2, moments EI/L.
+//
+// Point loads, distributed forces and gravity, each in the section or the base frame, several sections. Not tendons.
+#pragma once
+
+#include "scene/equilibrium.h"
+#include "scene/span.h"
+
+#include <span>
+#include <vector>
+
+namespace studies {
+
+class Rk4Shooting {
+ public:
+  using Vector6d = Eigen::Matrix<double, 6, 1>;
+  using State = Eigen::Matrix<double, 13, 1>;  // q (w, x, y, z), p, n, m
+
+  static constexpr double tolerance = 1e-10;  // largest component of the residual, units above
+  static constexpr int max_iterations = 50;
+
+  // Allocates all it needs. steps_per_span: at least one for each span. The spans must carry no tendon.
+  Rk4Shooting(std::span<const scene::Span> spans, std::span<const int> steps_per_span, bool with_shear);
+
+  // Newton from a guess of the internal force and moment at the clamp (scaled, base frame).
+  //   converged      residual <= tolerance
+  //   not_converged  residual > tolerance after max_iterations
+  //   not_finite     overflow
+  // Nothing keeps Newton to the equilibrium that the rod reaches from its unloaded shape.
+  scene::Status run(const Vector6d& guess = Vector6d::Zero()) noexcept;
+
+  const Vector6d& base_wrench() const { return base_wrench_; }  // scaled
+  double residual() const { return residual_; }
+  int iterations() const { return iterations_; }
+
+  // After run(), in mm, N, N mm.
+  std::vector<scene::Station> stations() const;
+  Eigen::Vector3d base_force_B_N() const;
+  Eigen::Vector3d base_moment_B_Nmm() const;
+
+ private:
+  struct SpanSteps {
+    double step;
+    int count;
+    Eigen::Vector3d rest_curvature, bending_compliance, shear_compliance;
+    Eigen::Vector3d fixed_density_B, follower_density_S;
+    bool has_follower_density;
+    scene::Wrench fixed_load_B, follower_load_S;  // at the span's distal end, scaled
+  };
+
+  template <bool with_shear>
+  static State derivative(const SpanSteps& span, const State& y);
+  template <bool with_shear>
+  static State step(const SpanSteps& span, const State& y);
+  template <bool with_shear, bool keep_states>
+  Vector6d residual_of(const Vector6d& base_wrench);
+  template <bool with_shear>
+  scene::Status newton();
+
+  bool with_shear_;
+  double length_mm_, stiffness_Nmm2_;
+  std::vector<SpanSteps> spans_;
+  std::vector<State> states_;  // clamp to tip, at the ends of the steps
+  Vector6d base_wrench_ = Vector6d::Zero();
+  double residual_ = 0;
+  int iterations_ = 0;
+};
+
+}  // namespace studies
