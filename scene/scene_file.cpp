@@ -15,13 +15,28 @@ using Json = nlohmann::ordered_json;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int max_depth = 16;  // the format needs 6
+// What no scene needs, refused while the file is read, so that time and memory stay in proportion to its size.
+constexpr int max_depth = 16;          // the format needs 6
+constexpr std::size_t max_keys = 32;   // of one object; the format needs 5
+constexpr int max_values = 4'000'000;  // of the file; 100 000 loads need some 2 million
+
+// Text from the file for an error message: one line of printable ASCII, other bytes as \xHH, cut where it is longer.
+std::string printable(const std::string& text, std::size_t longest) {
+  constexpr const char* digits = "0123456789abcdef";
+  std::string shown;
+  for (const char c : text) {
+    if (shown.size() >= longest) return shown + "...";
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= ' ' && byte <= '~') shown += c;
+    else shown += {'\\', 'x', digits[byte / 16], digits[byte % 16]};
+  }
+  return shown;
+}
 
 [[noreturn]] void refuse(const std::string& source, const std::string& path, const std::string& value,
                          const std::string& rule) {
-  constexpr std::size_t longest = 80;
-  const std::string shown = value.size() > longest ? value.substr(0, longest) + "..." : value;
-  throw SceneError(source + ": " + (path.empty() ? "(top level)" : path) + " = " + shown + ": " + rule);
+  const std::string where = path.empty() ? "(top level)" : printable(path, 200);
+  throw SceneError(source + ": " + where + " = " + printable(value, 80) + ": " + printable(rule, 300));
 }
 
 std::string dump(const Json& value) {
@@ -29,23 +44,27 @@ std::string dump(const Json& value) {
 }
 
 std::string join(const std::string& path, const std::string& key) {
-  return path.empty() ? key : path + "." + key;
+  const std::string shown = printable(key, 60);
+  return path.empty() ? shown : path + "." + shown;
 }
 
-// Follows the parser so that an error inside the text can be named by its JSON path; refuses a key given twice,
-// of which a JSON parser would silently keep the last.
+// Follows the parser so that an error inside the text can be named by its JSON path; refuses what no scene needs, and a
+// key given twice, of which a JSON parser would silently keep the last.
 class PathTracker {
  public:
   explicit PathTracker(const std::string& source) : source_(source) {}
 
   bool operator()(int /*depth*/, Json::parse_event_t event, const Json& parsed) {
     using Event = Json::parse_event_t;
+    if (++values_ > max_values) refuse(source_, path(), "(too much)", "more values than a scene can have");
     if (event == Event::object_start || event == Event::array_start) {
       levels_.push_back({event == Event::array_start, {}, {}, 0});
       if (levels_.size() > max_depth) refuse(source_, path(), "{...", "nested too deeply for a scene");
     } else if (event == Event::key) {
       Level& level = levels_.back();
       level.key = parsed.get<std::string>();
+      if (level.keys.size() == max_keys)
+        refuse(source_, path(), dump(parsed), "more keys than an object here can have");
       if (!level.keys.insert(level.key).second) refuse(source_, path(), dump(parsed), "the key is given twice");
     } else {
       if (event != Event::value) levels_.pop_back();
@@ -73,6 +92,7 @@ class PathTracker {
 
   const std::string& source_;
   std::vector<Level> levels_;
+  int values_ = 0;  // beginnings, ends, keys and values
 };
 
 // A JSON value with its path, read key by key.
@@ -240,6 +260,9 @@ Scene read(const Node& node) {
 }
 
 Json parse(const std::string& text, const std::string& source) {
+  if (text.find('\0') != std::string::npos) {  // the parser would stop there and not see the rest
+    refuse(source, "", "(unreadable)", "not JSON: byte " + std::to_string(text.find('\0')) + " is zero");
+  }
   PathTracker tracker(source);
   try {
     return Json::parse(text, std::ref(tracker));
