@@ -45,6 +45,12 @@ Matrix turned(const Matrix& rotation_SB, const Vector& turn_S) {
   return rotation_matrix(turn_S).transpose() * rotation_SB;
 }
 
+// The larger of 1/EA and 1/kGA, per N.
+double compliance(const scene::Span& span) {
+  const double axial = span.stiffness.axial_N ? 1 / *span.stiffness.axial_N : 0;
+  return span.stiffness.shear_N ? std::max(axial, 1 / span.stiffness.shear_N->minCoeff()) : axial;
+}
+
 // The step of a law.
 template <bool with_shear, class T, int D>
 BasicMotion<T, D> law_step(Law law, const BasicArcConstants<D>& constants, const ArcForces<T, D>* distributed,
@@ -94,7 +100,8 @@ BasicBoundaryValue<D>::BasicBoundaryValue(std::span<const scene::Span> spans, st
 
 template <int D>
 bool BasicBoundaryValue<D>::one_equilibrium() const {
-  return total_growth_ * total_growth_ <= unique_load && total_turn_rad_ <= largest_turn_rad;
+  return total_growth_ * total_growth_ <= unique_load && total_turn_rad_ <= largest_total_turn_rad &&
+         strain_ <= largest_strain;
 }
 
 template <int D>
@@ -116,6 +123,12 @@ void BasicBoundaryValue<D>::cut_into_segments() {
       const double growth = h * std::sqrt(force / stiffness);
       total_growth_ += growth;
       total_turn_rad_ += h * moment / least_stiffness_Nmm2(span);
+      if (D == 3) {  // in the plane bent rods are as good as straight ones
+        total_turn_rad_ +=
+            h * (span.rest_curvature_per_mm.norm() + span.tendon_S.moment_Nmm.norm() / least_stiffness_Nmm2(span));
+      }
+      if (model_ == RodModel::reissner)
+        strain_ = std::max(strain_, (force + span.tendon_S.force_N.norm()) * compliance(span));
       if (since_cut > 0 && since_cut + growth > segment_growth) {
         segments_.push_back({arc + 1, end_arc});
         end_arc = arc + 1;
@@ -274,7 +287,7 @@ double BasicBoundaryValue<D>::apply(const Eigen::VectorXd& step) {
 // One segment: the tip's turn, on the stack. Derivatives are kept while they still shrink the steps tenfold; slope_
 // holds them between calls, `fresh_slope` says whether it does at the start.
 template <int D>
-bool BasicBoundaryValue<D>::newton_one_segment(bool fresh_slope) {
+bool BasicBoundaryValue<D>::newton_one_segment(bool fresh_slope, double tolerance) {
   SegmentEquations equations;
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
@@ -295,8 +308,9 @@ bool BasicBoundaryValue<D>::newton_one_segment(bool fresh_slope) {
     if (size > largest_turn_rad) step *= largest_turn_rad / size;
     nodes_[0].rotation_SB = turned(nodes_[0].rotation_SB, step);
     // The next step would be smaller by what this one was, or squared after fresh derivatives.
-    const double next = fresh_slope ? size * std::min(size / last, 0.1) : size * size;
-    if (next <= newton_tolerance_) return true;
+    const double shrinkage = std::isfinite(last) ? std::min(size / last, 0.1) : 0.1;
+    const double next = fresh_slope ? size * shrinkage : newton_curvature * size * size;
+    if (next <= tolerance) return true;
     fresh_slope = size < 0.1 && (!fresh_slope || size < 0.1 * last);
     last = size;
   }
@@ -306,7 +320,7 @@ bool BasicBoundaryValue<D>::newton_one_segment(bool fresh_slope) {
 // All segments together. Columns: node k at k times `unknowns`; the tip's, the last, has its turns alone. Rows: the
 // clamp's turns, then all for each segment k > 0.
 template <int D>
-bool BasicBoundaryValue<D>::newton_segments() {
+bool BasicBoundaryValue<D>::newton_segments(double tolerance) {
   const auto count = static_cast<int>(segments_.size());
   constexpr int wrenches = turns + D;
   const int size_of_all = unknowns * count - wrenches;
@@ -344,14 +358,14 @@ bool BasicBoundaryValue<D>::newton_segments() {
     const Eigen::VectorXd step = -lu.solve(residual);
     if (!step.allFinite()) return false;
     const double size = apply(step);
-    if (size * size <= newton_tolerance_) return true;
+    if (newton_curvature * size * size <= tolerance) return true;
   }
   return false;
 }
 
 template <int D>
-bool BasicBoundaryValue<D>::newton() {
-  return segments_.size() == 1 ? newton_one_segment(false) : newton_segments();
+bool BasicBoundaryValue<D>::newton(double tolerance) {
+  return segments_.size() == 1 ? newton_one_segment(false, tolerance) : newton_segments(tolerance);
 }
 
 // Where the last two loads point: rotations along their relative turn, wrenches along their difference.
@@ -377,13 +391,13 @@ template <int D>
 bool BasicBoundaryValue<D>::solve_at_once() {
   set_load(1);
   load_steps_ = 1;
-  if (!coarse_ || coarse_->segment_count() != 1) return newton();
+  if (!coarse_ || coarse_->segment_count() != 1) return newton(newton_tolerance_);
   coarse_->start_unloaded();
-  if (!coarse_->solve_at_once()) return newton();
+  if (!coarse_->solve_at_once()) return newton(newton_tolerance_);
   nodes_ = coarse_->nodes_;
   slope_ = coarse_->slope_;
   newton_steps_ += coarse_->newton_steps_;
-  return newton_one_segment(true);
+  return newton_one_segment(true, newton_tolerance_);
 }
 
 template <int D>
@@ -402,7 +416,7 @@ bool BasicBoundaryValue<D>::grow_load() {
     const std::vector<State<double>> guess = predict(to);
     nodes_ = guess;
     set_load(to);
-    bool accepted = newton();
+    bool accepted = newton(to < 1 ? std::max(newton_tolerance_, load_step_tolerance) : newton_tolerance_);
     double turn = 0;
     double surprise = 0;
     for (std::size_t k = 0; accepted && k < nodes_.size(); ++k) {
@@ -425,6 +439,12 @@ bool BasicBoundaryValue<D>::grow_load() {
       nodes_ = start;
       set_load(from);
       step = (to - from) / 2;
+      const long long marched = static_cast<long long>(newton_steps_) * arc_count();
+      if (marched > std::max<long long>(most_arcs_marched, static_cast<long long>(growth_passes) * arc_count())) {
+        message_ = "work limit: " + std::to_string(marched) + " arcs marched and only " +
+                   std::to_string(100 * factor_) + " % of the load reached";
+        return false;
+      }
       if (step < smallest_load_step) {
         message_ = "the load step fell below " + std::to_string(smallest_load_step) + " at " +
                    std::to_string(100 * factor_) + " % of the load";
@@ -478,7 +498,7 @@ scene::Status BasicBoundaryValue<D>::run_from(const BasicBoundaryValue& other) {
   load_steps_ = other.load_steps_;
   newton_steps_ = other.newton_steps_;
   set_load(1);
-  if (newton()) return finish(true);
+  if (newton(newton_tolerance_)) return finish(true);
   message_ = "Newton did not converge from the solution with fewer arcs";
   return scene::Status::not_converged;
 }

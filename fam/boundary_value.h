@@ -29,14 +29,22 @@
 namespace fam {
 
 constexpr double unique_load = 2.4;
+constexpr double largest_total_turn_rad = 0.8;  // by moments, rest curvature and tendons
+constexpr double largest_strain = 0.1;
 constexpr double segment_growth = 1.6;
-constexpr double largest_turn_rad = 0.8;
-constexpr double largest_surprise_rad = 0.15;
+constexpr double largest_turn_rad = 0.5;
+constexpr double largest_surprise_rad = 0.05;
 constexpr double smallest_load_step = 1e-6;
 constexpr double smallest_bifurcation_step = 1e-5;
 constexpr int max_newton_steps = 20;
+// Growing the load ends in load_step_too_small after this many arcs marched, or growth_passes times the rod's arcs.
+constexpr long long most_arcs_marched = 2'000'000;
+constexpr int growth_passes = 100;
+constexpr double load_step_tolerance = 1e-6;  // of Newton on the way to the full load, where the last is tighter
 // Newton ends where the next step is expected below newton_tolerance: rotations in rad, moments in EI/L, forces in
-// EI/L^2. The expectation is the step squared after fresh derivatives, else the step times the last shrinkage.
+// EI/L^2. The expectation is newton_curvature times the step squared after fresh derivatives, else the step times
+// the last shrinkage.
+constexpr double newton_curvature = 30;
 constexpr double tightest_newton_tolerance = 1e-13;
 
 // In space, D = 3, or for rods in the x-y plane, D = 2 (spans with nothing out of it): 1 unknown, 4 more with each
@@ -106,10 +114,10 @@ class BasicBoundaryValue {
   void set_load(double factor);
   void start_unloaded();
   std::vector<State<double>> predict(double factor) const;
-  bool newton();
-  bool newton_one_segment(bool fresh_slope);
+  bool newton(double tolerance);
+  bool newton_one_segment(bool fresh_slope, double tolerance);
   bool solve_at_once();
-  bool newton_segments();
+  bool newton_segments(double tolerance);
   bool grow_load();
   scene::Status finish(bool solved);
   template <class T, class After>
@@ -129,6 +137,7 @@ class BasicBoundaryValue {
   double bending_Nmm2_ = 0;  // the least stiffness: unit of forces and moments
   double total_growth_ = 0;  // w of the whole rod
   double total_turn_rad_ = 0;
+  double strain_ = 0;  // bound on stretch and shear
 
   std::vector<SpanArcs> span_arcs_;
   std::vector<Segment> segments_;        // clamp to tip

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector2d;
 using scene::Span;
 
-// Sum of the sizes of all forces that act on a span or beyond it.
+// Sum of the sizes of the forces on a span and at its end.
 double add_force_N(const Span& span) {
   return span.follower_load_S.force_N.norm() + span.fixed_load_B.force_N.norm() +
          span.length_mm() * (span.follower_force_S_N_per_mm.norm() + span.fixed_force_B_N_per_mm.norm());
@@ -122,6 +122,16 @@ RodChoice choose_rod(std::span<const Span> spans, RodModel wanted, double tolera
             "no shear: shear and stretch move the tip by less than a tenth of the tolerance"};
   }
   return {RodModel::reissner, 0, "shear: the sections shear or stretch, and it may matter"};
+}
+
+double largest_growth(std::span<const Span> spans, std::span<const int> arcs_per_span) {
+  double force = 0, largest = 0;
+  for (std::size_t i = spans.size(); i-- > 0;) {
+    force += add_force_N(spans[i]);
+    const double h = spans[i].length_mm() / arcs_per_span[i];
+    largest = std::max(largest, h * std::sqrt(force / least_stiffness_Nmm2(spans[i])));
+  }
+  return largest;
 }
 
 std::vector<int> first_arcs(std::span<const Span> spans) {

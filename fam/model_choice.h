@@ -34,4 +34,7 @@ RodChoice choose_rod(std::span<const scene::Span> spans, RodModel wanted, double
 // than a growth of sqrt(force / EI) h = 1.5.
 std::vector<int> first_arcs(std::span<const scene::Span> spans);
 
+// The largest growth sqrt(force / EI) h that an arc sees, EI the least stiffness of its span.
+double largest_growth(std::span<const scene::Span> spans, std::span<const int> arcs_per_span);
+
 }  // namespace fam

@@ -271,6 +271,18 @@ Equilibrium success(const Task& task, const Run& run, const std::vector<int>& ar
   return result;
 }
 
+// Largest turn of an arc; 0 where no force acts, so that any arc of a round rod is exact.
+double largest_turn_rad_under_force(const Task& task, const Run& run) {
+  if (largest_growth(task.spans, std::vector<int>(task.spans.size(), 1)) == 0) return 0;
+  return std::visit(
+      [](const auto& solver) {
+        double largest = 0;
+        for (const auto& arc : solver.arcs()) largest = std::max(largest, arc.screw.rotation.norm());
+        return largest;
+      },
+      run.prepared.solver);
+}
+
 Equilibrium solve_fixed(const Task& task) {
   const std::vector<int> arcs = scene::cells_per_span(task.spans, task.options.arcs);
   const Run run(task.spans, arcs, task.choice, task.options);
@@ -282,6 +294,10 @@ Equilibrium solve_fixed(const Task& task) {
     error = twice.status == Status::converged
                 ? factor / (factor - 1) * distance_mm(run, twice, run.arc_count()) + round_off_mm(task.spans, run)
                 : std::numeric_limits<double>::infinity();
+    if (largest_growth(task.spans, arcs) > resolved_growth ||
+        largest_turn_rad_under_force(task, run) > resolved_turn_rad) {
+      error = std::max(error, task.spans.back().end_mm);
+    }
   }
   return success(task, run, arcs, error + task.choice.rod.left_out_mm, "number of arcs given");
 }
@@ -308,11 +324,12 @@ Equilibrium solve_to_tolerance(const Task& task) {
       const double d = distance_mm(*coarse, fine, count);
       const auto meets = [&](const Run& run, double estimate) {
         error = estimate + round_off_mm(task.spans, run) + task.choice.rod.left_out_mm;
+        if (largest_turn_rad_under_force(task, run) > resolved_turn_rad) error = std::max(error, length_mm);
         return error <= task.tolerance_mm;
       };
       const std::string reason = "fewest arcs found whose estimate meets the tolerance";
       if (meets(*coarse, coarse_safety * d)) return success(task, *coarse, times(first, multiple), error, reason);
-      if (meets(fine, d * (fine_safety / (std::pow(ratio, p) - 1) + distrust * d / length_mm))) {
+      if (meets(fine, d * (fine_safety / (std::pow(ratio, p - 1) - 1) + distrust * d / length_mm))) {
         return success(task, fine, arcs, error, reason);
       }
       const double growth = 1.05 * std::pow(error / task.tolerance_mm, 1 / p);

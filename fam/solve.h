@@ -53,10 +53,15 @@ const char* name(Law law);
 scene::Equilibrium solve(const scene::Scene& scene, const Options& options = {});
 
 // Automatic choice: runs with N and r N arcs that lie d apart; the estimate is coarse_safety d for the first and
-// d (fine_safety / (r^p - 1) + distrust d / L) for the second.
+// d (fine_safety / (r^(p - 1) - 1) + distrust d / L) for the second: an order less than the law's, which few arcs do
+// not show yet.
 constexpr double coarse_safety = 1.5;
 constexpr double fine_safety = 2;
 constexpr double distrust = 4;
+// Arcs longer than this do not see the load's length or the rod's turns, and two resolutions may agree by chance: the
+// estimate is then at least L.
+constexpr double resolved_growth = 2.5;    // sqrt(force / EI) h
+constexpr double resolved_turn_rad = 2.5;  // of an arc, where a force acts
 
 // The solver that options with fixed arcs, law and model describe, with its memory; empty where solve() would end in
 // `unsupported`, with the reason. run_prepared does not allocate for a march, nor for a boundary value problem of one

@@ -4,9 +4,11 @@
 //   random_scenes run FROM TO FOLDER    FROM and TO multiples of the block; every 500th scene by finite elements too
 //   random_scenes second FOLDER         a second opinion on every scene in which FAM is wrong and silent
 //   random_scenes sum FOLDER OUTPUT     counts.csv, failures.csv and README.md from the blocks
+//   random_scenes promise TO OUTPUT     seeds 0..TO-1: is the tolerance kept (promise.h)?
 //   random_scenes check FOLDER LIST     fails on a listed outcome (random_study.h) of a seed that LIST does not hold
 #include "scene/scene_file.h"
 #include "studies/output_file.h"
+#include "studies/promise.h"
 #include "studies/random_scene.h"
 #include "studies/random_study.h"
 
@@ -156,12 +158,20 @@ int main(int argc, char** argv) {
     for (const auto& [name, text] : studies::random_files(all_outcomes(arguments[1]))) {
       studies::write_file(fs::path(arguments[2]) / name, text);
     }
+  } else if (command == "promise" && arguments.size() == 3) {
+    std::vector<studies::Promise> promises;
+    for (std::uint64_t seed = 0; seed < std::stoull(arguments[1]); ++seed) {
+      if (const auto promise = studies::promise_of(seed, true)) promises.push_back(*promise);
+    }
+    for (const auto& [name, text] : studies::promise_files(promises)) {
+      studies::write_file(fs::path(arguments[2]) / name, text);
+    }
   } else if (command == "check" && arguments.size() == 3) {
     return check(arguments[1], arguments[2]);
   } else {
-    fmt::print(
-        stderr,
-        "random_scenes scene SEED | run FROM TO FOLDER | second FOLDER | sum FOLDER OUTPUT | check FOLDER LIST\n");
+    fmt::print(stderr,
+               "random_scenes scene SEED | run FROM TO FOLDER | second FOLDER | sum FOLDER OUTPUT | promise TO OUTPUT "
+               "| check FOLDER LIST\n");
     return 2;
   }
   return 0;

@@ -254,6 +254,7 @@ std::vector<Contender> contenders() {
   return {fam_law("published", fam::Law::published),
           fam_law("midpoint", fam::Law::midpoint),
           fam_law("fourth_order", fam::Law::fourth_order),
+          fam_law("sixth_order", fam::Law::sixth_order),
           {"fam automatic", 0, 0, INFINITY, "--method fam --tolerance-mm 0.01",
            [](const scene::Scene& scene, int) { return solve_fam(scene, fam::Law::automatic, 0); }},
           fem("fem linear", 1),

@@ -32,7 +32,9 @@ Timing measure(const std::function<void()>& work, double budget_s, int fewest_re
     samples.push_back(1e6 * seconds / batch);
   }
   std::sort(samples.begin(), samples.end());
-  const auto quantile = [&](double q) { return samples[static_cast<std::size_t>(q * static_cast<double>(samples.size() - 1))]; };
+  const auto quantile = [&](double q) {
+    return samples[static_cast<std::size_t>(q * static_cast<double>(samples.size() - 1))];
+  };
   return {quantile(0.5), quantile(0.25), quantile(0.75), static_cast<int>(samples.size())};
 }
 

@@ -21,7 +21,8 @@ struct Look {
 // A series that is not listed is drawn black.
 const std::vector<Look> looks = {{"fam published", "FAM published", colour::sky, ""},
                                  {"fam midpoint", "FAM midpoint", colour::green, ""},
-                                 {"fam fourth_order", "FAM fourth order", colour::blue, ""},
+                                 {"fam fourth_order", "FAM fourth order", colour::blue, "5 3"},
+                                 {"fam sixth_order", "FAM sixth order", colour::blue, ""},
                                  {"fam automatic", "FAM automatic", colour::blue, "2 3"},
                                  {"rk4 shooting", "RK4 shooting", colour::orange, ""},
                                  {"exact reference", "exact reference", colour::grey, ""},

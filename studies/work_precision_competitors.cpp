@@ -12,7 +12,8 @@ namespace studies {
 namespace {
 
 // A new law of fam::Law needs its line here.
-const std::vector<fam::Law> laws = {fam::Law::published, fam::Law::midpoint, fam::Law::fourth_order};
+const std::vector<fam::Law> laws = {fam::Law::published, fam::Law::midpoint, fam::Law::fourth_order,
+                                    fam::Law::sixth_order};
 
 const std::vector<int> arc_counts = {1, 2, 4, 8, 12, 16, 32, 64, 128, 256, 512};
 const std::vector<int> step_counts = {2, 4, 8, 16, 32, 64, 128, 256, 512};

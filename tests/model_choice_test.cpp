@@ -1,0 +1,122 @@
+// The automatic choice: the smallest model that does, and its promise.
+#include "fam/model_choice.h"
+#include "exact_reference/solve.h"
+#include "fam/solve.h"
+#include "studies/promise.h"
+#include "support.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+namespace {
+
+using Eigen::Vector3d;
+using scene::Frame;
+using support::slender;
+using support::uniform_rod;
+
+template <class T>
+T fact(const scene::Equilibrium& result, const std::string& key) {
+  for (const auto& [name, value] : result.model) {
+    if (name == key) return std::get<T>(value);
+  }
+  ADD_FAILURE() << key;
+  return {};
+}
+
+scene::Equilibrium solved(const scene::Scene& scene, double tolerance_mm = 1e-4) {
+  fam::Options options;
+  options.tolerance_mm = tolerance_mm;
+  const scene::Equilibrium result = fam::solve(scene, options);
+  EXPECT_TRUE(result.converged()) << result.message;
+  return result;
+}
+
+scene::Scene tip_loaded(const Vector3d& force_N, const Vector3d& moment_Nmm, Frame frame,
+                        const scene::Stiffness& stiffness = slender(750, 500)) {
+  return uniform_rod(40, stiffness, {scene::Force{40, frame, force_N}, scene::Moment{40, frame, moment_Nmm}});
+}
+
+TEST(ModelChoice, APureEndMomentTakesOneArc) {
+  for (const Vector3d& moment : {Vector3d(0, 0, 100), Vector3d(0, 40, 30), Vector3d(50, 0, 0)}) {
+    EXPECT_EQ(fact<int>(solved(tip_loaded({0, 0, 0}, moment, Frame::follower), 1e-9), "arcs"), 1) << moment;
+  }
+  // Twins: a moment that bends and twists turns in the section where GJ is not EI; a force beside it.
+  EXPECT_GT(fact<int>(solved(tip_loaded({0, 0, 0}, {20, 30, -100}, Frame::follower), 1e-9), "arcs"), 1);
+  EXPECT_GT(fact<int>(solved(tip_loaded({0, 0.1, 0}, {0, 0, 100}, Frame::follower), 1e-9), "arcs"), 1);
+}
+
+// In the x-y plane, the x-z plane and, for round sections, any plane; the answer turns with the plane.
+TEST(ModelChoice, APlanarSceneRunsThePlanarKernel) {
+  for (const Frame frame : {Frame::follower, Frame::fixed}) {
+    const Vector3d force(-0.3, 0.8, 0), moment(0, 0, 12);
+    const scene::Equilibrium flat = solved(tip_loaded(force, moment, frame), 1e-8);
+    EXPECT_EQ(fact<std::string>(flat, "kernel"), "planar");
+    for (const double angle : {0.3, 1.5, 3.0, -2.0}) {
+      const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Vector3d::UnitX()).toRotationMatrix();
+      const scene::Equilibrium turned = solved(tip_loaded(turn * force, turn * moment, frame), 1e-8);
+      EXPECT_EQ(fact<std::string>(turned, "kernel"), "planar") << angle;
+      EXPECT_LT((turned.tip().position_B_mm - turn * flat.tip().position_B_mm).norm(), 1e-11);
+      EXPECT_LT((turned.tip().rotation_BS - turn * flat.tip().rotation_BS * turn.transpose()).norm(), 1e-12);
+      EXPECT_LT((turned.base_moment_B_Nmm - turn * flat.base_moment_B_Nmm).norm(), 1e-10);
+    }
+    const scene::Equilibrium spatial = solved(tip_loaded(force, moment + Vector3d(0, 1e-6, 0), frame));
+    EXPECT_EQ(fact<std::string>(spatial, "kernel"), "spatial");
+  }
+}
+
+// A flat section bends in its own planes only: about z under a force along y, about y under a force along z.
+TEST(ModelChoice, FlatSectionsHaveTwoPlanes) {
+  scene::Stiffness flat = slender(750, 500);
+  flat.bending_Nmm2 = {2000, 750};
+  for (const auto& [force, kernel] :
+       {std::pair<Vector3d, std::string>{{0, 1, 0}, "planar"}, {{0, 0, -1}, "planar"}, {{0, 0.6, 0.8}, "spatial"}}) {
+    const scene::Scene scene = tip_loaded(force, {0, 0, 0}, Frame::fixed, flat);
+    const scene::Equilibrium result = solved(scene, 1e-7);
+    EXPECT_EQ(fact<std::string>(result, "kernel"), kernel);
+    EXPECT_LT((result.tip().position_B_mm - exact_reference::solve(scene).tip().position_B_mm).norm(), 1e-7);
+    EXPECT_GT((solved(support::stiffer(scene), 1e-7).tip().position_B_mm - result.tip().position_B_mm).norm(), 1e-2);
+  }
+}
+
+TEST(ModelChoice, FollowerLoadsNeverRunTheBoundaryValueSolver) {
+  for (const std::string& name : support::study1_cases()) {
+    EXPECT_EQ(fact<std::string>(solved(support::study1_scene(name, "follower")), "solver"), "march");
+    EXPECT_EQ(fact<std::string>(solved(support::study1_scene(name, "fixed")), "solver"), "boundary value");
+  }
+}
+
+TEST(ModelChoice, SlenderRodsRunWithoutShear) {
+  const auto shear = [](double slenderness) {  // EI / (kGA L^2)
+    scene::Stiffness stiffness = slender(750, 500);
+    stiffness.axial_N = 750 / (slenderness * 1600);
+    stiffness.shear_N = Eigen::Vector2d::Constant(750 / (slenderness * 1600));
+    return fact<bool>(solved(tip_loaded({0, 1, 0}, {0, 0, 0}, Frame::fixed, stiffness), 0.04), "shear");
+  };
+  EXPECT_FALSE(shear(1e-6));
+  EXPECT_TRUE(shear(1e-3));
+}
+
+// The first of the random scenes of results/work_precision/promise, with the limits of the issue there: kept in 99.9 %
+// on the branch of the exact reference, at most three times the tolerance elsewhere, and few arcs too many.
+TEST(ModelChoice, KeepsItsPromise) {
+  std::vector<studies::Promise> promises;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    if (seed == 291 || seed == 722) continue;  // take minutes; results/stability/random
+    if (const auto promise = studies::promise_of(seed, seed % 4 == 0)) promises.push_back(*promise);
+  }
+  for (const studies::Promise& p : promises) {
+    if (p.converged && p.error > p.tolerance) {
+      std::printf("seed %d tolerance %.0e estimate %.1e error %.1e arcs %d\n", static_cast<int>(p.seed), p.tolerance,
+                  p.estimate, p.error, p.arcs);
+    }
+  }
+  const studies::PromiseCounts counts = studies::count(promises);
+  EXPECT_GT(counts.solved, 380);
+  EXPECT_GE(counts.kept + counts.other_branch, counts.solved - 1);
+  EXPECT_LE(counts.other_branch, 2);
+  EXPECT_LE(counts.worst_excess, 3);
+  EXPECT_LE(counts.median_waste, 1.5);
+}
+
+}  // namespace
