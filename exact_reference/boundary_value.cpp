@@ -18,6 +18,8 @@ constexpr double largest_miss_rad = 0.1;  // corrected against predicted rotatio
 constexpr double largest_turn_rad = 0.8;  // of any section in a load step
 constexpr double first_turn_rad = 0.1;
 constexpr int most_load_steps = 3000;
+constexpr double most_work =
+    500'000;  // intervals, summed over Newton's iterations: seconds; all our scenes need 26 000
 constexpr double smallest_step = 1e-6;  // of the load reached or of the first step, whichever is larger
 
 // Largest rotation between two sets of node states; a small quaternion change is half a rotation.
@@ -34,7 +36,18 @@ struct Path {
   double load = 0;
   int steps = 0;
   int newton_iterations = 0;
+  std::size_t fewest_intervals = shooting.mesh().size();
+  double work = 0;
   bool watch_stability = false;  // conservative, and stable so far
+
+  Convergence newton(NodeStates& states, double load_factor, double tolerance, int max_iterations) {
+    const Convergence result = shooting.newton(states, load_factor, tolerance, max_iterations);
+    newton_iterations += result.iterations;
+    work += static_cast<double>(result.iterations) * static_cast<double>(shooting.mesh().size());
+    return result;
+  }
+
+  bool exhausted() const { return work > most_work + 100 * static_cast<double>(fewest_intervals); }
 };
 
 // Beside a buckling load the branches lie too close to be told apart by their distance: a step from a stable to an
@@ -49,8 +62,7 @@ double try_step(Path& path, const std::vector<Core>& tangent, double step) {
   for (std::size_t k = 0; k < predicted.size(); ++k) predicted[k].head<core_size>() += step * tangent[k];
   if (largest_turn(predicted, path.y) > 2 * largest_turn_rad) return HUGE_VAL;
   NodeStates corrected = predicted;
-  const Convergence newton = path.shooting.newton(corrected, path.load + step, 1e-8, 8);
-  path.newton_iterations += newton.iterations;
+  const Convergence newton = path.newton(corrected, path.load + step, 1e-8, 8);
   const double miss = largest_turn(corrected, predicted);
   const bool jumped = !(miss <= largest_miss_rad) || !(largest_turn(corrected, path.y) <= largest_turn_rad);
   if (!newton.converged || jumped) return HUGE_VAL;
@@ -68,8 +80,7 @@ bool adapt(Path& path, double local_error, double newton_tolerance) {
   for (int round = 0; round < most_rounds; ++round) {
     path.shooting.integrate_positions(path.y, path.load);
     if (!path.shooting.refine(path.y, path.load, local_error, max_intervals)) return true;
-    const Convergence newton = path.shooting.newton(path.y, path.load, newton_tolerance, 12);
-    path.newton_iterations += newton.iterations;
+    const Convergence newton = path.newton(path.y, path.load, newton_tolerance, 12);
     if (!newton.converged) return false;
   }
   return true;
@@ -98,7 +109,7 @@ bool follow_load(Path& path) {
       step = trial / 2;
       if (step < smallest_step * std::max(path.load, first_step)) return false;
     }
-    if (++path.steps > most_load_steps) return false;
+    if (++path.steps > most_load_steps || path.exhausted()) return false;
     if (!adapt(path, continuation_local_error, 1e-8)) return false;
     step *= std::clamp(std::sqrt(largest_miss_rad / 4 / std::max(miss, 1e-6)), 0.5, 3.0);
   }
@@ -109,8 +120,7 @@ bool follow_load(Path& path) {
 double solve_accurately(Path& path, double tolerance) {
   const double local_tolerance = std::max(tolerance / 20, 1e-14);
   const auto converge = [&] {
-    const Convergence newton = path.shooting.newton(path.y, 1, 1e-15, 20);
-    path.newton_iterations += newton.iterations;
+    const Convergence newton = path.newton(path.y, 1, 1e-15, 20);
     path.shooting.integrate_positions(path.y, 1);
     return newton.converged;
   };
@@ -181,6 +191,10 @@ scene::Equilibrium solve_boundary_value(const ScaledRod& rod, double tolerance) 
     result.status = scene::Status::load_step_too_small;
     result.message =
         text("no equilibrium found next to the one at %.6g of the load: a fold, or too large a load", path.load);
+    if (path.exhausted() || path.steps > most_load_steps) {
+      result.status = scene::Status::not_converged;
+      result.message = text("given up at %.6g of the load: a rod that turns so much takes too many steps", path.load);
+    }
     return result;
   }
   const double error = solve_accurately(path, tolerance);

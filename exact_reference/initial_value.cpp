@@ -36,6 +36,8 @@ int march_derivative(realtype, N_Vector y_vector, N_Vector dy_vector, void* equa
   return dy.allFinite() ? 0 : -1;
 }
 
+constexpr long most_steps = 1'000'000;  // of a march, some three seconds
+
 // SUNDIALS objects of one march.
 class Integrator {
  public:
@@ -47,7 +49,7 @@ class Integrator {
     CVodeInit(cvode_, march_derivative, 0, vector_);
     CVodeSStolerances(cvode_, tolerance, tolerance);
     CVodeSetNonlinearSolver(cvode_, solver_);
-    CVodeSetMaxNumSteps(cvode_, 1'000'000);
+    CVodeSetMaxNumSteps(cvode_, most_steps);
     CVodeSetErrHandlerFn(
         cvode_, [](int, const char*, const char*, char*, void*) {}, nullptr);
   }
@@ -116,6 +118,7 @@ March march(const ScaledRod& rod, const std::vector<double>& places, double tole
     integrator.restart(tip - span->end, equations);
     const MarchState start = integrator.state();
     while (k > 0 && places[k] > span->start) {
+      if (result.steps + integrator.steps() > most_steps) return result;
       if (!integrator.advance_to(tip - places[--k])) return result;
       result.states[k] = integrator.state();
     }

@@ -99,6 +99,15 @@ std::string failure_message(double load_factor, double step, const Attempt& atte
   return text;
 }
 
+// The first element that turns by pi or more from end to end, which the mesh cannot show.
+std::optional<std::size_t> turned_over(const BeamModel& model, const BeamState& state) {
+  const std::size_t order = static_cast<std::size_t>(model.reference.order());
+  for (std::size_t e = 0; e < model.elements.size(); ++e) {
+    if (state.rotation_BS[e * order].dot(state.rotation_BS[(e + 1) * order]) <= 0) return e;
+  }
+  return std::nullopt;
+}
+
 class Stepping {
  public:
   Stepping(const BeamModel& model, const SteppingOptions& options)
@@ -120,6 +129,7 @@ class Stepping {
       const double target = load_factor_ + 1.001 * step_ >= 1 ? 1 : load_factor_ + step_;
       const double step = target - load_factor_;
       if (try_step(target)) {
+        if (const auto element = turned_over(model_, state_)) return too_coarse(*element);
         step_ = grown(step, last_, options_);
         continue;
       }
@@ -166,6 +176,13 @@ class Stepping {
   SteppingResult failed(scene::Status status, double step) {
     result_.status = status;
     result_.message = failure_message(load_factor_, step, last_);
+    return std::move(result_);
+  }
+
+  SteppingResult too_coarse(std::size_t element) {
+    result_.status = scene::Status::not_converged;
+    result_.message = "load factor " + std::to_string(load_factor_) + " of 1 reached: element " +
+                      std::to_string(element) + " turns by pi or more: the mesh is too coarse";
     return std::move(result_);
   }
 

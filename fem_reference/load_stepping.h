@@ -42,6 +42,8 @@ struct SteppingResult {
 // equilibrium to one that is not is halved too, down to smallest_bifurcation_step (or smallest_load_step), where it is
 // accepted: a rod whose symmetry nothing breaks stays on its branch. A jump from one stable branch to another beside it
 // goes unseen.
+//
+// An accepted step in which an element turns by pi or more from end to end, beyond what the mesh can show, is the last.
 SteppingResult step_to_full_load(const BeamModel& model, const SteppingOptions& options);
 
 }  // namespace fem_reference

@@ -68,9 +68,6 @@ std::vector<scene::Station> stations(const std::vector<scene::Span>& spans, cons
 std::string defect(const BeamModel& model, const BeamState& state) {
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
     const ElementState element = state_of_element(model, state, e);
-    if (element.rotation_BS.front().dot(element.rotation_BS.back()) <= 0) {
-      return "element " + std::to_string(e) + " turns by pi or more: the mesh is too coarse";
-    }
     for (int g = 0; g < model.reference.points(); ++g) {
       if (element_strain(model.reference, model.elements[e], element, g).v[0] <= 0) {
         return "element " + std::to_string(e) + " is compressed to nothing (1 + stretch <= 0)";

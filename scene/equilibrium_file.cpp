@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace scene {
 namespace {
 
@@ -72,7 +74,9 @@ std::string to_text(const Equilibrium& result, const std::string& method, double
   report += fmt::format("  {:<24}{}\n", "force at the clamp, N", triple(result.base_force_B_N));
   report += fmt::format("  {:<24}{}\n", "moment at the clamp, N mm", triple(result.base_moment_B_Nmm));
   report += fmt::format("  {:<24}{:12.6f}\n", "tip rotation angle, rad", result.tip_angle_rad);
-  report += fmt::format("  {:<24}{:12.3g}\n", "estimated tip error, mm", result.error_estimate_mm);
+  const bool estimated = std::isfinite(result.error_estimate_mm);
+  const std::string error = estimated ? fmt::format("{:.3g}", result.error_estimate_mm) : "unknown";
+  report += fmt::format("  {:<24}{:>12}\n", "estimated tip error, mm", error);
   if (result.stable) report += fmt::format("  {:<24}{}\n", "equilibrium", *result.stable ? "stable" : "unstable");
   report += "\n  model\n";
   for (const auto& [key, value] : result.model) report += fmt::format("    {:<18}{}\n", key, text(value));
