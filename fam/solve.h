@@ -56,7 +56,7 @@ scene::Equilibrium solve(const scene::Scene& scene, const Options& options = {})
 // d (fine_safety / (r^(p - 1) - 1) + distrust d / L) for the second: an order less than the law's, which few arcs do
 // not show yet.
 constexpr double coarse_safety = 1.5;
-constexpr double fine_safety = 2;
+constexpr double fine_safety = 4;
 constexpr double distrust = 4;
 // Arcs longer than this do not see the load's length or the rod's turns, and two resolutions may agree by chance: the
 // estimate is then at least L.
