@@ -1,16 +1,21 @@
 // fam-studies: everything that compares. `fam-studies --help` and README.md say more.
 #include "apps/solve_command.h"
+#include "scene/scene_file.h"
 #include "studies/benchmarks.h"
 #include "studies/exact_method.h"
 #include "studies/fam_method.h"
 #include "studies/fe_verification.h"
 #include "studies/fem_method.h"
+#include "studies/rk4_method.h"
 #include "studies/segmentation.h"
 #include "studies/stability.h"
+#include "studies/stability_maps.h"
 #include "studies/study1.h"
 #include "studies/study2.h"
 #include "studies/torsion.h"
 #include "studies/work_precision.h"
+
+#include <fmt/format.h>
 
 namespace {
 
@@ -22,6 +27,7 @@ std::unique_ptr<studies::Method> make_method(const apps::SolveArguments& argumen
     if (kirchhoff) options.model = exact_reference::RodModel::kirchhoff;
     return studies::exact_method(options);
   }
+  if (arguments.method == "rk4") return studies::rk4_method({arguments.steps, !kirchhoff});
   fem_reference::Options options;
   options.elements = arguments.elements;
   options.order = arguments.order;
@@ -30,9 +36,11 @@ std::unique_ptr<studies::Method> make_method(const apps::SolveArguments& argumen
 }
 
 void add_method_options(CLI::App* solve, apps::SolveArguments& arguments) {
-  solve->add_option("--method", arguments.method, "fam, fem or exact")->check(CLI::IsMember({"fam", "fem", "exact"}));
+  solve->add_option("--method", arguments.method, "fam, fem, exact or rk4 (plain shooting)")
+      ->check(CLI::IsMember({"fam", "fem", "exact", "rk4"}));
   solve->add_option("--elements", arguments.elements, "fem: number of elements (default: 50)")
       ->check(CLI::Range(1, 100'000));
+  solve->add_option("--steps", arguments.steps, "rk4: number of steps (default: 50)")->check(CLI::Range(1, 100'000));
   solve->add_option("--order", arguments.order, "fem: order of the elements (default: 2)")->check(CLI::Range(1, 3));
 }
 
@@ -67,8 +75,19 @@ int main(int argc, char** argv) {
     command->add_flag("--quick", options.quick, "The smallest setting that still runs every line");
   }
 
+  std::string map;
+  double x = 0, y = 0;
+  CLI::App* cell = app.add_subcommand("cell", "Print the scene of a cell of a stability map");
+  cell->add_option("map", map, "follower, fixed, ... as in results/stability")->required();
+  cell->add_option("x", x, "Value on the map's x axis")->required();
+  cell->add_option("y", y, "Value on the map's y axis; left out where that is a number of arcs or elements");
+
   return apps::run(app, argc, argv, [&] {
     if (solve->parsed()) return apps::run_solve(arguments, make_method);
+    if (cell->parsed()) {
+      fmt::print("{}", scene::write_scene(studies::cell_scene(map, x, y)));
+      return apps::exit_solved;
+    }
     for (const auto& [name, study] : studies) {
       if (app.got_subcommand(name) || app.got_subcommand("all")) study(options);
     }

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 
 namespace fam {
 namespace {
@@ -223,6 +225,21 @@ Equilibrium failure(const Run& run) {
   return result;
 }
 
+std::string rounded(double value) {
+  std::ostringstream text;
+  text << std::setprecision(3) << value;
+  return text.str();
+}
+
+Equilibrium too_long_for_series(double growth, double turn_rad) {
+  Equilibrium result;
+  result.status = Status::arc_not_converged;
+  result.message = "the series of an arc does not reach its end: it grows by sqrt(force / EI) h = " + rounded(growth) +
+                   " (largest: " + rounded(resolved_growth) + ") and turns by " + rounded(turn_rad) +
+                   " rad (largest: " + rounded(resolved_turn_rad) + "); take more arcs, or the law fourth_order";
+  return result;
+}
+
 // What a solve was asked for and how.
 struct Task {
   const std::vector<Span>& spans;
@@ -287,6 +304,10 @@ Equilibrium solve_fixed(const Task& task) {
   const std::vector<int> arcs = scene::cells_per_span(task.spans, task.options.arcs);
   const Run run(task.spans, arcs, task.choice, task.options);
   if (run.status != Status::converged) return failure(run);
+  const double growth = largest_growth(task.spans, arcs);
+  const double turn_rad = largest_turn_rad_under_force(task, run);
+  const bool resolved = growth <= resolved_growth && turn_rad <= resolved_turn_rad;
+  if (!resolved && task.choice.law == Law::sixth_order) return too_long_for_series(growth, turn_rad);
   double error = 0;
   if (task.options.estimate_error) {
     const Run twice(task.spans, times(arcs, 2), task.choice, task.options, &run);
@@ -294,10 +315,7 @@ Equilibrium solve_fixed(const Task& task) {
     error = twice.status == Status::converged
                 ? factor / (factor - 1) * distance_mm(run, twice, run.arc_count()) + round_off_mm(task.spans, run)
                 : std::numeric_limits<double>::infinity();
-    if (largest_growth(task.spans, arcs) > resolved_growth ||
-        largest_turn_rad_under_force(task, run) > resolved_turn_rad) {
-      error = std::max(error, task.spans.back().end_mm);
-    }
+    if (!resolved) error = std::max(error, task.spans.back().end_mm);
   }
   return success(task, run, arcs, error + task.choice.rod.left_out_mm, "number of arcs given");
 }
@@ -343,8 +361,8 @@ Equilibrium solve_to_tolerance(const Task& task) {
   if (coarse->status != Status::converged) return failure(*coarse);
   Equilibrium result;
   result.status = Status::tolerance_not_met;
-  result.message = "estimated tip error " + std::to_string(error) + " mm exceeds the tolerance " +
-                   std::to_string(task.tolerance_mm) + " mm with " + std::to_string(coarse->arc_count()) + " arcs";
+  result.message = "estimated tip error " + rounded(error) + " mm exceeds the tolerance " + rounded(task.tolerance_mm) +
+                   " mm with " + std::to_string(coarse->arc_count()) + " arcs";
   return result;
 }
 

@@ -35,7 +35,8 @@ const char* name(Law law);
 // Solves a valid scene (scene::validate). Numerical trouble is a status, never an exception:
 //   unsupported        published law with a fixed or distributed load, with shear or EI_y != EI_z
 //   load_step_too_small, not_converged   see fam/boundary_value.h
-//   arc_not_converged  see fam/arc_law.h
+//   arc_not_converged  published law: see fam/arc_law.h; sixth_order with fixed arcs: an arc that grows by more than
+//                      resolved_growth or turns by more than resolved_turn_rad
 //   tolerance_not_met  estimated tip error > tolerance with max_arcs arcs
 //   not_finite         overflow
 //
@@ -59,7 +60,7 @@ constexpr double coarse_safety = 1.5;
 constexpr double fine_safety = 4;
 constexpr double distrust = 4;
 // Arcs longer than this do not see the load's length or the rod's turns, and two resolutions may agree by chance: the
-// estimate is then at least L.
+// estimate is then at least L, and the series of sixth_order have no answer at all.
 constexpr double resolved_growth = 2.5;    // sqrt(force / EI) h
 constexpr double resolved_turn_rad = 2.5;  // of an arc, where a force acts
 

@@ -118,8 +118,10 @@ scene::Equilibrium solve_on(const std::vector<scene::Span>& spans, const std::ve
   return equilibrium(spans, cells, model, step_to_full_load(model, stepping_options(options)), options);
 }
 
-// Meshes whose tips lie farther apart than this times L are too coarse to trust the order of the error.
+// Meshes whose tips lie farther apart than this times L are too coarse to trust the order of the error,
 constexpr double asymptotic_difference = 1e-3;
+// and farther apart than this, to trust anything.
+constexpr double distrusted_difference = 0.05;
 
 // Whether an element turns by more than pi/2 from end to end.
 bool turns_far(const std::vector<scene::Station>& stations, int order) {
@@ -131,29 +133,34 @@ bool turns_far(const std::vector<scene::Station>& stations, int order) {
   return false;
 }
 
-// Error of the tip on `cells` from the tip on another mesh: the error is c h^q with q = 2 order, doubled for safety.
-// Of meshes too coarse for that, twice the distance of the tips, and L at least where an element turns by more than
-// pi/2: two such meshes can agree on what is no solution.
+// Error of the tip on `cells` from the tip on another mesh, of half the elements: the error is c h^q with q = 2 order,
+// doubled for safety. Where they are too coarse for that, twice the distance of the tips, from twice the elements too;
+// L at least where that distance is large or an element turns by more than pi/2: such meshes can agree on what is no
+// solution.
 double error_estimate_mm(const std::vector<scene::Span>& spans, const std::vector<int>& cells, const Options& options,
                          const scene::Equilibrium& found) {
-  std::vector<int> other = cells;
+  const double length_mm = spans.back().end_mm;
+  const auto distance_mm = [&](const std::vector<int>& mesh) {
+    const scene::Equilibrium other = solve_on(spans, mesh, options);
+    if (!other.converged()) return std::numeric_limits<double>::quiet_NaN();
+    return (other.tip().position_B_mm - found.tip().position_B_mm).norm();
+  };
+  std::vector<int> half = cells, twice = cells;
   double ratio = std::numeric_limits<double>::infinity();  // of the element lengths, the least of all spans
-  for (int& count : other) {
-    const int half = (count + 1) / 2;
-    ratio = std::min(ratio, static_cast<double>(count) / half);
-    count = half;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    half[i] = (cells[i] + 1) / 2;
+    twice[i] = 2 * cells[i];
+    ratio = std::min(ratio, static_cast<double>(cells[i]) / half[i]);
   }
   const bool finer = ratio == 1;  // a span of one element cannot be halved
-  for (std::size_t i = 0; finer && i < cells.size(); ++i) other[i] = 2 * cells[i];
-  const scene::Equilibrium second = solve_on(spans, other, options);
-  if (!second.converged()) return std::numeric_limits<double>::quiet_NaN();
-  const double difference_mm = (second.tip().position_B_mm - found.tip().position_B_mm).norm();
-  const double length_mm = spans.back().end_mm;
-  if (difference_mm > asymptotic_difference * length_mm) {
-    return std::max(2 * difference_mm, turns_far(found.stations, options.order) ? length_mm : 0);
+  double difference_mm = distance_mm(finer ? twice : half);
+  if (std::isnan(difference_mm)) return difference_mm;
+  if (difference_mm <= asymptotic_difference * length_mm) {
+    return 2 * difference_mm / std::abs(std::pow(finer ? 0.5 : ratio, 2 * options.order) - 1);
   }
-  const double factor = std::pow(finer ? 0.5 : ratio, 2 * options.order);
-  return 2 * difference_mm / std::abs(factor - 1);
+  if (!finer) difference_mm += std::max(0.0, distance_mm(twice) - difference_mm);
+  const bool distrusted = difference_mm > distrusted_difference * length_mm || turns_far(found.stations, options.order);
+  return distrusted ? std::max(2 * difference_mm, length_mm) : 2 * difference_mm;
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct Station {
 enum class Status {
   converged,
   unsupported,          // the method cannot solve this kind of load or section; the message names it
-  arc_not_converged,    // published law: the angle of an arc still moves after 50 steps (fam/arc_law.h)
+  arc_not_converged,    // FAM: the angle of an arc, or its series, was not found (fam/solve.h)
   tolerance_not_met,    // the error estimate exceeds the tolerance at the largest number of arcs
   load_step_too_small,  // the load step was halved below 1e-6 of the load
   not_converged,        // an iteration ended above its tolerance; the message gives both

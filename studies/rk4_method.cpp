@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace studies {
 namespace {
@@ -60,6 +61,7 @@ class Rk4Method : public Method {
     }
     result.stations = solver->stations();
     result.tip_angle_rad = scene::total_angle_rad(result.stations);
+    result.error_estimate_mm = error_estimate_mm(scene, result.tip().position_B_mm);
     result.base_force_B_N = solver->base_force_B_N();
     result.base_moment_B_Nmm = solver->base_moment_B_Nmm();
     return result;
@@ -81,6 +83,12 @@ class Rk4Method : public Method {
   }
 
  private:
+  double error_estimate_mm(const scene::Scene& scene, const Eigen::Vector3d& tip_B_mm) const {
+    const std::shared_ptr<Rk4Shooting> twice = prepared(scene, {2 * options_.steps, options_.with_shear});
+    if (twice->run() != scene::Status::converged) return INFINITY;
+    return 16.0 / 15.0 * (twice->stations().back().X_BS.position_B_mm - tip_B_mm).norm();
+  }
+
   Rk4Options options_;
 };
 

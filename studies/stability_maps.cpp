@@ -5,6 +5,7 @@
 #include "fam/solve.h"
 #include "fem_reference/solve.h"
 #include "studies/planar_march.h"
+#include "studies/rk4_method.h"
 
 #include <Eigen/Geometry>
 
@@ -116,8 +117,11 @@ scene::Equilibrium solve_in_plane(const scene::Scene& scene, int arcs) {
   scene::Equilibrium result;
   result.status = scene::Status::converged;
   result.stations = {{length_mm, {Eigen::Matrix3d::Identity(), length_mm * Vector3d(tip[0], tip[1], 0)}}};
-  // Second order: the finer march is off by a third of the difference.
+  // Second order: the finer march is off by a third of the difference. Arcs too long as in fam::solve.
   result.error_estimate_mm = length_mm * 4 / 3 * std::hypot(tip[0] - finer[0], tip[1] - finer[1]);
+  if (std::sqrt(load) / arcs > fam::resolved_growth) {
+    result.error_estimate_mm = std::max(result.error_estimate_mm, length_mm);
+  }
   return result;
 }
 
@@ -236,6 +240,16 @@ std::vector<StabilityMap> stability_maps() {
   return maps;
 }
 
+scene::Scene cell_scene(const std::string& map, double x, double y) {
+  for (const StabilityMap& candidate : stability_maps()) {
+    if (candidate.name != map) continue;
+    scene::Scene scene = candidate.scene(x, y);
+    scene::validate(scene);
+    return scene;
+  }
+  throw scene::SceneError("no stability map is called \"" + map + "\"");
+}
+
 std::vector<Contender> contenders() {
   const auto fam_law = [](const std::string& name, fam::Law law) {
     return Contender{
@@ -259,7 +273,10 @@ std::vector<Contender> contenders() {
            [](const scene::Scene& scene, int) { return solve_fam(scene, fam::Law::automatic, 0); }},
           fem("fem linear", 1),
           fem("fem quadratic", 2),
-          // A Runge-Kutta shooting method joins the list here, with one line.
+          {"rk4 shooting", 256, 16, INFINITY, "--method rk4 --steps ",
+           [](const scene::Scene& scene, int steps) {
+             return rk4_method({steps, true})->solve(scene);
+           }},
           {"exact", 0, 0, INFINITY, "--method exact",
            [](const scene::Scene& scene, int) {
              return exact_reference::solve(scene, {exact_reference::RodModel::reissner, 1e-9});

@@ -43,6 +43,9 @@ struct Contender {
 constexpr int most_load_steps = 150;  // of finite elements, accepted and rejected
 
 std::vector<StabilityMap> stability_maps();
+// The scene of a cell; maps whose y is the number of arcs or elements do not look at y. scene::SceneError: no such map,
+// or values that make no scene.
+scene::Scene cell_scene(const std::string& map, double x, double y);
 std::vector<Contender> contenders();
 
 // The scene with its fixed point loads replaced by follower loads of the same components in the sections where
