@@ -4,7 +4,6 @@
 #include "fam/scene_facts.h"
 
 #include <Eigen/Dense>
-#include <Eigen/SparseLU>
 
 #include <algorithm>
 #include <limits>
@@ -323,15 +322,11 @@ template <int D>
 bool BasicBoundaryValue<D>::newton_segments(double tolerance) {
   const auto count = static_cast<int>(segments_.size());
   constexpr int wrenches = turns + D;
-  const int size_of_all = unknowns * count - wrenches;
-  Eigen::VectorXd residual(size_of_all);
-  Eigen::SparseMatrix<double> matrix(size_of_all, size_of_all);
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> lu;
-  std::vector<Eigen::Triplet<double>> entries;
   SegmentEquations equations;
+  system_.resize(unknowns * count - wrenches);
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
     ++newton_steps_;
-    entries.clear();
+    system_.set_zero();
     for (int k = 0; k < count; ++k) {
       const bool tip = k + 1 == count;
       if (tip) evaluate_segment<turns>(static_cast<std::size_t>(k), equations);
@@ -340,24 +335,15 @@ bool BasicBoundaryValue<D>::newton_segments(double tolerance) {
       const int before = column - unknowns;
       const int row = k > 0 ? column - wrenches : 0;
       for (int i = 0; i < (k > 0 ? unknowns : turns); ++i) {
-        residual[row + i] = equations.residual[i];
-        for (int j = 0; j < (tip ? turns : unknowns); ++j) {
-          entries.emplace_back(row + i, column + j, equations.arrival(i, j));
-        }
+        system_.right()[row + i] = -equations.residual[i];
+        for (int j = 0; j < (tip ? turns : unknowns); ++j) system_(row + i, column + j) = equations.arrival(i, j);
         if (k == 0) continue;
-        if (i >= turns) entries.emplace_back(row + i, before + i, -1.0);
-        for (int j = 0; i < turns && j < turns; ++j) {
-          entries.emplace_back(row + i, before + j, equations.mismatch_slope(i, j));
-        }
+        if (i >= turns) system_(row + i, before + i) = -1;
+        for (int j = 0; i < turns && j < turns; ++j) system_(row + i, before + j) = equations.mismatch_slope(i, j);
       }
     }
-    if (!residual.allFinite()) return false;
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    lu.compute(matrix);
-    if (lu.info() != Eigen::Success) return false;
-    const Eigen::VectorXd step = -lu.solve(residual);
-    if (!step.allFinite()) return false;
-    const double size = apply(step);
+    if (!system_.right().allFinite() || !system_.solve() || !system_.right().allFinite()) return false;
+    const double size = apply(system_.right());
     if (newton_curvature * size * size <= tolerance) return true;
   }
   return false;

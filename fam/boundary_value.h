@@ -18,6 +18,7 @@
 // that the rod reaches when its loads grow together from zero; a snap-through ends in load_step_too_small.
 #pragma once
 
+#include "fam/band_solver.h"
 #include "fam/march.h"
 
 #include <Eigen/LU>
@@ -140,8 +141,9 @@ class BasicBoundaryValue {
   double strain_ = 0;  // bound on stretch and shear
 
   std::vector<SpanArcs> span_arcs_;
-  std::vector<Segment> segments_;        // clamp to tip
-  std::vector<State<double>> nodes_;     // at the distal end of each segment
+  std::vector<Segment> segments_;     // clamp to tip
+  std::vector<State<double>> nodes_;  // at the distal end of each segment
+  BandSystem<turns + unknowns - 1, 2 * unknowns - turns - 1> system_;
   std::vector<State<double>> previous_;  // the same at the last load but one
   double factor_ = 0, previous_factor_ = 0;
 

@@ -1,0 +1,65 @@
+// Gaussian elimination with row pivoting for the band matrices of multiple shooting, in memory that the caller keeps.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace fam {
+
+// A square matrix with `below` diagonals below the main one and `above` above it, and a right-hand side.
+template <int below, int above>
+class BandSystem {
+ public:
+  void resize(int size) {
+    size_ = size;
+    rows_.assign(static_cast<std::size_t>(size), Row::Zero());
+    right_.resize(size);
+  }
+  int size() const { return size_; }
+  void set_zero() { std::fill(rows_.begin(), rows_.end(), Row::Zero()); }
+
+  double& operator()(int row, int column) { return rows_[static_cast<std::size_t>(row)][column - row + below]; }
+  Eigen::VectorXd& right() { return right_; }
+
+  // Replaces the right-hand side by the solution; the matrix is used up. False: a pivot is 0 or not finite.
+  bool solve() {
+    for (int k = 0; k < size_; ++k) {
+      const int last_row = std::min(k + below, size_ - 1);
+      const int width = std::min(below + above, size_ - 1 - k) + 1;  // pivoting fills `below` more diagonals
+      int pivot = k;
+      for (int i = k + 1; i <= last_row; ++i) {
+        if (std::abs((*this)(i, k)) > std::abs((*this)(pivot, k))) pivot = i;
+      }
+      double* top = &(*this)(k, k);
+      if (pivot != k) {
+        std::swap_ranges(top, top + width, &(*this)(pivot, k));
+        std::swap(right_[k], right_[pivot]);
+      }
+      if (!(std::abs(*top) > 0) || !std::isfinite(*top)) return false;
+      for (int i = k + 1; i <= last_row; ++i) {
+        double* row = &(*this)(i, k);
+        if (*row == 0) continue;
+        const double factor = *row / *top;
+        for (int j = 1; j < width; ++j) row[j] -= factor * top[j];
+        right_[i] -= factor * right_[k];
+      }
+    }
+    for (int k = size_ - 1; k >= 0; --k) {
+      const int last = std::min(k + below + above, size_ - 1);
+      for (int j = k + 1; j <= last; ++j) right_[k] -= (*this)(k, j) * right_[j];
+      right_[k] /= (*this)(k, k);
+    }
+    return true;
+  }
+
+ private:
+  using Row = Eigen::Array<double, 2 * below + above + 1, 1>;  // from the lowest diagonal up, and what pivoting fills
+  int size_ = 0;
+  std::vector<Row> rows_;
+  Eigen::VectorXd right_;
+};
+
+}  // namespace fam
