@@ -11,12 +11,13 @@ namespace fem_reference {
 
 namespace {
 
-enum class Outcome { converged, turned_too_far, lost_stability, stalled, singular, not_finite };
+enum class Outcome { converged, turned_too_far, surprised, lost_stability, stalled, singular, not_finite };
 
 const char* reason(Outcome outcome) {
   switch (outcome) {
     case Outcome::converged: return "converged";
     case Outcome::turned_too_far: return "a node turns too far in one step";
+    case Outcome::surprised: return "a node turns far from where the last step pointed";
     case Outcome::lost_stability: return "the equilibrium is unstable";
     case Outcome::stalled: return "Newton's iteration does not converge";
     case Outcome::singular: return "the tangent is singular";
@@ -36,6 +37,7 @@ struct Attempt {
   Outcome outcome = Outcome::stalled;
   int iterations = 0;
   double rotation_rad = 0;  // largest of any node since the start of the step
+  double surprise_rad = 0;  // and since the predictor
   Residual residual;
 };
 
@@ -80,10 +82,16 @@ Attempt iterate(BeamSystem& system, const BeamModel& model, const BeamState& sta
   }
 }
 
+double largest_surprise_rad(const SteppingOptions& options) {
+  return options.largest_rotation_rad / 12;
+}
+
 // The next step is to turn the rod a little less than is allowed, and is at most twice the last.
 double grown(double step, const Attempt& attempt, const SteppingOptions& options) {
   const double to_limit = 0.8 * options.largest_rotation_rad / std::max(attempt.rotation_rad, 1e-12);
-  return step * std::clamp(to_limit, 0.5, 2.0);
+  // The surprise grows like the square of the step.
+  const double to_surprise = std::sqrt(0.5 * largest_surprise_rad(options) / std::max(attempt.surprise_rad, 1e-12));
+  return step * std::clamp(std::min(to_limit, to_surprise), 0.5, 2.0);
 }
 
 double shrunk(double step, const Attempt& attempt, const SteppingOptions& options) {
@@ -153,9 +161,16 @@ class Stepping {
     const double step = target - load_factor_;
     // Secant predictor: the last accepted step goes on.
     if (last_step_ > 0) advance(trial, last_increment_, step / last_step_);
+    const BeamState guess = trial;
     last_ = iterate(system_, model_, state_, trial, target, is_watched(step), options_);
     result_.newton_iterations += last_.iterations;
     if (last_.outcome != Outcome::converged) return false;
+    if (last_step_ > 0) last_.surprise_rad = largest_rotation(guess, trial);
+    else if (step > 0 && last_.rotation_rad > 0.5 * options_.largest_rotation_rad) last_.surprise_rad = INFINITY;
+    if (last_.surprise_rad > largest_surprise_rad(options_)) {
+      last_.outcome = Outcome::surprised;
+      return false;
+    }
     if (conservative_) result_.stable = is_stable(model_, trial, target);
     if (step > 0) {
       ++result_.load_steps;

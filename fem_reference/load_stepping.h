@@ -36,8 +36,9 @@ struct SteppingResult {
 // A step is accepted when
 //   largest Newton increment of a node <= tolerance (displacements over L, rotations in rad) and
 //   largest residual <= tolerance F, with F = max(1, largest internal force) in EI / L^2, and
-//   no node has turned by more than largest_rotation_rad in the step,
-// the last of which keeps Newton from reaching another branch of equilibria, where the residual vanishes as well.
+//   no node has turned by more than largest_rotation_rad in the step, half of that in the first one, and
+//   no node lies farther than a twelfth of largest_rotation_rad from where the last step pointed,
+// the last two of which keep Newton from reaching another branch of equilibria, where the residual vanishes as well.
 // Beside a buckling load the branches lie too close for that. So where the loads are conservative, a step from a stable
 // equilibrium to one that is not is halved too, down to smallest_bifurcation_step (or smallest_load_step), where it is
 // accepted: a rod whose symmetry nothing breaks stays on its branch. A jump from one stable branch to another beside it

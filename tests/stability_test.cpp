@@ -62,7 +62,7 @@ std::vector<Case> cases() {
           {"fem_coarse", "2 quadratic elements", true, elements(2, 2)},
           {"random_947", "fam automatic", true, automatic},
           {"random_20445", "fam automatic", true, automatic},
-          {"random_947", "50 quadratic elements", false, elements(2, 50)},
+          {"random_947", "50 quadratic elements", true, elements(2, 50)},
           {"rk4_shooting", "rk4 shooting, 16 steps", false, [](const Scene& scene, int refinement) {
              return studies::rk4_method({16 * refinement, true})->solve(scene);
            }}};
