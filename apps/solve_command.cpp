@@ -11,6 +11,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 
 namespace apps {
 namespace {
@@ -103,7 +104,9 @@ int run_solve(const SolveArguments& arguments, const MethodFactory& make_method)
 int run(CLI::App& app, int argc, char** argv, const std::function<int()>& work) {
   try {
     app.parse(argc, argv);
-    return work();
+    const int status = work();
+    if (std::fflush(stdout) != 0) throw studies::OutputError("standard output: cannot be written");
+    return status;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_solved : exit_wrong_input;
   } catch (const scene::SceneError& error) {

@@ -14,8 +14,10 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
   if (error) fail(error.message());
 
+  // A device or a pipe is written to as it is.
+  const bool in_place = std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error);
   std::filesystem::path partial = path;
-  partial += ".partial";
+  if (!in_place) partial += ".partial";
   errno = 0;
   {
     std::ofstream file(partial, std::ios::binary);
@@ -23,10 +25,11 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
     file.close();
     if (!file) {
       const std::string reason = std::strerror(errno);
-      std::filesystem::remove(partial, error);
+      if (!in_place) std::filesystem::remove(partial, error);
       fail(reason);
     }
   }
+  if (in_place) return;
   std::filesystem::rename(partial, path, error);
   if (error) fail(error.message());
 }

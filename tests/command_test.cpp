@@ -1,54 +1,16 @@
 // The commands as a user runs them: output, exit status, nothing half-written.
-#include "support.h"
+#include "commands.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <sys/wait.h>
-
 #include <array>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-struct Outcome {
-  int exit_status;
-  std::string out, err;
-};
-
-fs::path scratch() {
-  static const fs::path folder = [] {
-    fs::path path = fs::temp_directory_path() / ("fam_command_test_" + std::to_string(getpid()));
-    fs::create_directories(path);
-    return path;
-  }();
-  return folder;
-}
-
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-Outcome run(const std::string& command, const std::string& arguments, const std::string& input = "") {
-  std::ofstream(scratch() / "in") << input;
-  const std::string line = command + " " + arguments + " <" + (scratch() / "in").string() + " >" +
-                           (scratch() / "out").string() + " 2>" + (scratch() / "err").string();
-  const int status = std::system(line.c_str());
-  return {WEXITSTATUS(status), contents(scratch() / "out"), contents(scratch() / "err")};
-}
-
-std::string case_file(const std::string& name) {
-  return std::string(STUDY_CASES_DIR) + "/" + name + ".json";
-}
-
-const std::string fam = FAM_COMMAND;
-const std::string fam_studies = FAM_STUDIES_COMMAND;
+using namespace commands;
 
 // Every key of the contract, with both methods.
 TEST(Command, SolveJson) {
