@@ -59,6 +59,8 @@ class WorkPrecision {
     for (const WorkGroup& group : data_.groups) {
       for (const std::string& scene : group.scenes) solve_scene(scene);
     }
+    progress("work-precision", "aims");
+    data_.aims = measured_aims(options_);
     write();
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "studies/stopwatch.h"
+#include "studies/work_precision_aims.h"
 
 #include <map>
 #include <optional>
@@ -29,6 +30,7 @@ struct WorkGroup {
 };
 
 struct WorkData {
+  std::vector<AimRow> aims;
   std::vector<WorkGroup> groups;
   std::vector<WorkPoint> points;
 
