@@ -283,11 +283,13 @@ double BasicBoundaryValue<D>::apply(const Eigen::VectorXd& step) {
   return step.cwiseAbs().maxCoeff();
 }
 
-// One segment: the tip's turn, on the stack. Derivatives are kept while they still shrink the steps tenfold; slope_
-// holds them between calls, `fresh_slope` says whether it does at the start.
+// One segment: the tip's turn, on the stack. Derivatives are fresh while the steps are long, and after that mended by
+// Broyden's secant update. slope_ holds them between calls, `fresh_slope` says whether it does at the start.
 template <int D>
 bool BasicBoundaryValue<D>::newton_one_segment(bool fresh_slope, double tolerance) {
   SegmentEquations equations;
+  Turn<double, D> step = Turn<double, D>::Zero();
+  Turn<double, D> last_residual = step;
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
     ++newton_steps_;
@@ -296,12 +298,14 @@ bool BasicBoundaryValue<D>::newton_one_segment(bool fresh_slope, double toleranc
       State<double> state = nodes_[0];
       march(0, arc_count(), state, [](int, const auto&, const auto&, const auto&) {});
       residual = sine_vector<double>(state.rotation_SB);
+      if (std::isfinite(last)) slope_ += (residual - last_residual - slope_ * step) * step.transpose() / (last * last);
     } else {
       evaluate_segment<turns>(0, equations);
       residual = equations.residual.template head<turns>();
-      slope_.compute(equations.arrival.template topLeftCorner<turns, turns>());
+      slope_ = equations.arrival.template topLeftCorner<turns, turns>();
     }
-    Turn<double, D> step = -slope_.solve(residual);
+    last_residual = residual;
+    step = -slope_.inverse() * residual;
     const double size = step.norm();
     if (!std::isfinite(size)) return false;
     if (size > largest_turn_rad) step *= largest_turn_rad / size;
@@ -310,7 +314,7 @@ bool BasicBoundaryValue<D>::newton_one_segment(bool fresh_slope, double toleranc
     const double shrinkage = std::isfinite(last) ? std::min(size / last, 0.1) : 0.1;
     const double next = fresh_slope ? size * shrinkage : newton_curvature * size * size;
     if (next <= tolerance) return true;
-    fresh_slope = size < 0.1 && (!fresh_slope || size < 0.1 * last);
+    fresh_slope = size < 0.4 && (!fresh_slope || size < 0.5 * last);
     last = size;
   }
   return false;
@@ -375,24 +379,24 @@ std::vector<typename BasicBoundaryValue<D>::template State<double>> BasicBoundar
 // The full load from the rest shape; first with a quarter of the arcs, whose derivatives then serve for all.
 template <int D>
 bool BasicBoundaryValue<D>::solve_at_once() {
-  set_load(1);
   load_steps_ = 1;
-  if (!coarse_ || coarse_->segment_count() != 1) return newton(newton_tolerance_);
-  coarse_->start_unloaded();
-  if (!coarse_->solve_at_once()) return newton(newton_tolerance_);
-  nodes_ = coarse_->nodes_;
-  slope_ = coarse_->slope_;
-  newton_steps_ += coarse_->newton_steps_;
-  return newton_one_segment(true, newton_tolerance_);
+  if (coarse_ && coarse_->segment_count() == 1 && coarse_->solve_at_once()) {
+    set_load(1);
+    nodes_ = coarse_->nodes_;
+    slope_ = coarse_->slope_;
+    newton_steps_ += coarse_->newton_steps_;
+    return newton_one_segment(true, newton_tolerance_);
+  }
+  start_unloaded();
+  set_load(1);
+  return newton(newton_tolerance_);
 }
 
 template <int D>
 bool BasicBoundaryValue<D>::grow_load() {
-  if (one_equilibrium()) {
-    if (solve_at_once()) return true;
-    start_unloaded();
-    load_steps_ = 0;
-  }
+  if (one_equilibrium() && solve_at_once()) return true;
+  start_unloaded();
+  load_steps_ = 0;
   bool watch_stability = conservative(spans_);
   double step = std::min(1.0, std::max(0.02, 1 / (total_growth_ * total_growth_ + total_turn_rad_)));
   while (factor_ < 1) {
@@ -469,7 +473,6 @@ scene::Status BasicBoundaryValue<D>::run() {
   load_steps_ = newton_steps_ = 0;
   previous_factor_ = 0;
   if (coarse_) coarse_->newton_steps_ = 0;
-  start_unloaded();
   return finish(grow_load());
 }
 

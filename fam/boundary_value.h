@@ -147,7 +147,7 @@ class BasicBoundaryValue {
   std::vector<State<double>> previous_;  // the same at the last load but one
   double factor_ = 0, previous_factor_ = 0;
 
-  Eigen::PartialPivLU<Eigen::Matrix<double, turns, turns>> slope_;  // of one segment
+  Eigen::Matrix<double, turns, turns> slope_;  // of one segment
   std::unique_ptr<BasicBoundaryValue> coarse_;  // a quarter of the arcs, where the full load is solved for at once
 
   std::vector<BasicArc<D>> arcs_;
