@@ -24,8 +24,12 @@ class BandSystem {
   double& operator()(int row, int column) { return rows_[static_cast<std::size_t>(row)][column - row + below]; }
   Eigen::VectorXd& right() { return right_; }
 
+  // After solve(): the sign of the determinant.
+  bool determinant_is_negative() const { return negative_; }
+
   // Replaces the right-hand side by the solution; the matrix is used up. False: a pivot is 0 or not finite.
   bool solve() {
+    negative_ = false;
     for (int k = 0; k < size_; ++k) {
       const int last_row = std::min(k + below, size_ - 1);
       const int width = std::min(below + above, size_ - 1 - k) + 1;  // pivoting fills `below` more diagonals
@@ -37,8 +41,10 @@ class BandSystem {
       if (pivot != k) {
         std::swap_ranges(top, top + width, &(*this)(pivot, k));
         std::swap(right_[k], right_[pivot]);
+        negative_ = !negative_;
       }
       if (!(std::abs(*top) > 0) || !std::isfinite(*top)) return false;
+      negative_ ^= *top < 0;
       for (int i = k + 1; i <= last_row; ++i) {
         double* row = &(*this)(i, k);
         if (*row == 0) continue;
@@ -58,6 +64,7 @@ class BandSystem {
  private:
   using Row = Eigen::Array<double, 2 * below + above + 1, 1>;  // from the lowest diagonal up, and what pivoting fills
   int size_ = 0;
+  bool negative_ = false;
   std::vector<Row> rows_;
   Eigen::VectorXd right_;
 };

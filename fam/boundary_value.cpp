@@ -22,6 +22,12 @@ Turn<T, 2> sine_vector(const Eigen::Matrix<T, 2, 2>& rotation) {
   return Turn<T, 2>(T(0.5) * (rotation(1, 0) - rotation(0, 1)));
 }
 
+// Less than a quarter turn: half a turn has no sine either.
+template <int D>
+bool is_small(const Eigen::Matrix<double, D, D>& rotation) {
+  return rotation.trace() > D - 2;
+}
+
 Vector3d rotation_vector(const Matrix3d& rotation) {
   const Eigen::AngleAxisd turn(rotation);
   return turn.angle() * turn.axis();
@@ -254,6 +260,7 @@ void BasicBoundaryValue<D>::evaluate_segment(std::size_t k, SegmentEquations& eq
   }
   Rotation values;
   for (int i = 0; i < D * D; ++i) values(i) = mismatch(i).value;
+  equations.mismatch_is_small = is_small<D>(values);
   if constexpr (D == 3) equations.mismatch_slope = 0.5 * (values.trace() * Rotation::Identity() - values.transpose());
   else equations.mismatch_slope(0, 0) = 0.5 * values.trace();
   for (int i = 0; i < unknowns; ++i) {
@@ -298,6 +305,7 @@ bool BasicBoundaryValue<D>::newton_one_segment(bool fresh_slope, double toleranc
       State<double> state = nodes_[0];
       march(0, arc_count(), state, [](int, const auto&, const auto&, const auto&) {});
       residual = sine_vector<double>(state.rotation_SB);
+      equations.mismatch_is_small = is_small<D>(state.rotation_SB);
       if (std::isfinite(last)) slope_ += (residual - last_residual - slope_ * step) * step.transpose() / (last * last);
     } else {
       evaluate_segment<turns>(0, equations);
@@ -313,7 +321,7 @@ bool BasicBoundaryValue<D>::newton_one_segment(bool fresh_slope, double toleranc
     // The next step would be smaller by what this one was, or squared after fresh derivatives.
     const double shrinkage = std::isfinite(last) ? std::min(size / last, 0.1) : 0.1;
     const double next = fresh_slope ? size * shrinkage : newton_curvature * size * size;
-    if (next <= tolerance) return true;
+    if (next <= tolerance) return equations.mismatch_is_small;
     fresh_slope = size < 0.4 && (!fresh_slope || size < 0.5 * last);
     last = size;
   }
@@ -331,10 +339,12 @@ bool BasicBoundaryValue<D>::newton_segments(double tolerance) {
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
     ++newton_steps_;
     system_.set_zero();
+    bool small = true;
     for (int k = 0; k < count; ++k) {
       const bool tip = k + 1 == count;
       if (tip) evaluate_segment<turns>(static_cast<std::size_t>(k), equations);
       else evaluate_segment<unknowns>(static_cast<std::size_t>(k), equations);
+      small = small && equations.mismatch_is_small;
       const int column = unknowns * k;
       const int before = column - unknowns;
       const int row = k > 0 ? column - wrenches : 0;
@@ -348,7 +358,7 @@ bool BasicBoundaryValue<D>::newton_segments(double tolerance) {
     }
     if (!system_.right().allFinite() || !system_.solve() || !system_.right().allFinite()) return false;
     const double size = apply(system_.right());
-    if (newton_curvature * size * size <= tolerance) return true;
+    if (newton_curvature * size * size <= tolerance) return small;
   }
   return false;
 }
@@ -398,6 +408,7 @@ bool BasicBoundaryValue<D>::grow_load() {
   start_unloaded();
   load_steps_ = 0;
   bool watch_stability = conservative(spans_);
+  bool orientation = false;
   double step = std::min(1.0, std::max(0.02, 1 / (total_growth_ * total_growth_ + total_turn_rad_)));
   while (factor_ < 1) {
     const double from = factor_;
@@ -418,9 +429,13 @@ bool BasicBoundaryValue<D>::grow_load() {
       if (to - from > smallest_bifurcation_step) accepted = false;
       else watch_stability = false;
     }
+    if (accepted && load_steps_ > 0 && slope_is_negative() != orientation) {
+      if (to - from > smallest_bifurcation_step) accepted = false;
+    }
     const double allowed_surprise = load_steps_ == 0 ? largest_turn_rad / 2 : largest_surprise_rad;
     accepted = accepted && turn <= largest_turn_rad && surprise <= allowed_surprise;
     if (accepted) {
+      orientation = slope_is_negative();
       previous_ = start;
       previous_factor_ = from;
       ++load_steps_;

@@ -11,9 +11,10 @@
 // w^2 = pi^2/4 (w with the least of EI and GJ; with EI in planar scenes), and the full load is solved for at once, as
 // long as the moments turn the rod by no more than largest_turn_rad. Beyond it the load
 // grows from zero in steps; a step is taken only if Newton converges and no segment end turns by more than
-// largest_turn_rad in it nor lies farther than largest_surprise_rad from where the last two steps pointed. Where the
-// loads have an energy, a step that ends unstable is shortened as well, down to smallest_bifurcation_step: beside a
-// buckling load the branches lie too close to be told apart by their distance. Only a rod whose symmetry holds it on
+// largest_turn_rad in it nor lies farther than largest_surprise_rad from where the last two steps pointed. Beside a
+// buckling or turning point the branches lie too close to be told apart by their distance, but the sign of the
+// equations' determinant differs from one to the next: a step that changes it is shortened as well, and where the loads
+// have an energy one that ends unstable, down to smallest_bifurcation_step. Only a rod whose symmetry holds it on
 // the unstable branch passes (a column loaded exactly on its axis stays straight). So the answer is the equilibrium
 // that the rod reaches when its loads grow together from zero; a snap-through ends in load_step_too_small.
 #pragma once
@@ -107,6 +108,7 @@ class BasicBoundaryValue {
     Eigen::Matrix<double, unknowns, 1> residual;
     Eigen::Matrix<double, unknowns, unknowns> arrival;
     Eigen::Matrix<double, turns, turns> mismatch_slope;
+    bool mismatch_is_small;  // a residual of half a turn vanishes too
   };
 
   std::optional<bool> stable_in_space() const requires(D == 3);
@@ -116,6 +118,9 @@ class BasicBoundaryValue {
   void start_unloaded();
   std::vector<State<double>> predict(double factor) const;
   bool newton(double tolerance);
+  bool slope_is_negative() const {
+    return segments_.size() == 1 ? slope_.determinant() < 0 : system_.determinant_is_negative();
+  }
   bool newton_one_segment(bool fresh_slope, double tolerance);
   bool solve_at_once();
   bool newton_segments(double tolerance);
@@ -147,7 +152,7 @@ class BasicBoundaryValue {
   std::vector<State<double>> previous_;  // the same at the last load but one
   double factor_ = 0, previous_factor_ = 0;
 
-  Eigen::Matrix<double, turns, turns> slope_;  // of one segment
+  Eigen::Matrix<double, turns, turns> slope_;   // of one segment
   std::unique_ptr<BasicBoundaryValue> coarse_;  // a quarter of the arcs, where the full load is solved for at once
 
   std::vector<BasicArc<D>> arcs_;

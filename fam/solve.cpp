@@ -320,6 +320,16 @@ Equilibrium solve_fixed(const Task& task) {
   return success(task, run, arcs, error + task.choice.rod.left_out_mm, "number of arcs given");
 }
 
+// The answer with more arcs, from that with fewer. Where that one is far off, or does not lead there, the loads grow
+// from nothing once more: arcs that are too long may have taken it to another branch.
+Run refined(const Task& task, const std::vector<int>& arcs, const Run& coarse, int first_count) {
+  Run fine(task.spans, arcs, task.choice, task.options, &coarse);
+  if (fine.marched() || coarse.status != Status::converged) return fine;
+  const bool near = fine.status == Status::converged &&
+                    distance_mm(coarse, fine, first_count) <= leading_distance * task.spans.back().end_mm;
+  return near ? std::move(fine) : Run(task.spans, arcs, task.choice, task.options);
+}
+
 // Runs with growing multiples of the first arcs, each compared with the one before at the ends of the first arcs.
 Equilibrium solve_to_tolerance(const Task& task) {
   const double p = order(task.choice.law);
@@ -334,7 +344,7 @@ Equilibrium solve_to_tolerance(const Task& task) {
   int next = 2;
   while (static_cast<double>(next) * count <= max_arcs && (coarse->marched() || failures < 4)) {
     const std::vector<int> arcs = times(first, next);
-    Run fine(task.spans, arcs, task.choice, task.options, &*coarse);
+    Run fine = refined(task, arcs, *coarse, count);
     const double ratio = static_cast<double>(next) / multiple;
     int after = 2 * next;
     if (fine.status != Status::converged) ++failures;

@@ -59,6 +59,8 @@ scene::Equilibrium solve(const scene::Scene& scene, const Options& options = {})
 constexpr double coarse_safety = 1.5;
 constexpr double fine_safety = 4;
 constexpr double distrust = 4;
+// An answer farther than this times L from the next finer one does not lead there: that one's loads grow from nothing.
+constexpr double leading_distance = 0.05;
 // Arcs longer than this do not see the load's length or the rod's turns, and two resolutions may agree by chance: the
 // estimate is then at least L, and the series of sixth_order have no answer at all.
 constexpr double resolved_growth = 2.5;    // sqrt(force / EI) h

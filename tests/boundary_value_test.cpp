@@ -247,6 +247,32 @@ TEST(BoundaryValue, ManyLoads) {
 }
 
 // Dual numbers: sin, sqrt, quotients against central differences.
+// Against Eigen's dense LU; with a zero on the diagonal, so that rows must change places.
+TEST(BandSystem, SolvesAndTellsTheSignOfTheDeterminant) {
+  std::mt19937 generator(3);
+  std::normal_distribution<double> normal;
+  for (const int size : {1, 4, 9, 40}) {
+    fam::BandSystem<4, 6> system;
+    system.resize(size);
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
+    Eigen::VectorXd right(size);
+    system.set_zero();
+    for (int i = 0; i < size; ++i) {
+      for (int j = std::max(0, i - 4); j <= std::min(size - 1, i + 6); ++j) {
+        matrix(i, j) = system(i, j) = i == j && i > 0 && i % 3 == 0 ? 0 : normal(generator);
+      }
+      right[i] = system.right()[i] = normal(generator);
+    }
+    const Eigen::PartialPivLU<Eigen::MatrixXd> dense(matrix);
+    ASSERT_TRUE(system.solve());
+    EXPECT_LT((system.right() - dense.solve(right)).norm(), 1e-10 * dense.solve(right).norm()) << size;
+    EXPECT_EQ(system.determinant_is_negative(), dense.determinant() < 0) << size;
+  }
+  fam::BandSystem<4, 6> singular;
+  singular.resize(2);
+  EXPECT_FALSE(singular.solve());
+}
+
 TEST(Dual, Derivatives) {
   const auto f = [](auto x, auto y) {
     using std::sin;
