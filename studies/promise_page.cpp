@@ -77,7 +77,8 @@ tip.
 - Kept: {kept} of {solved} solved, {share:.2f} %. On the same equilibrium as the exact reference: {same_share:.3f} %.
 - Where it was broken on the same equilibrium, the error was at most {worst:.1f} times the tolerance.
 - Another equilibrium than the exact reference's: {other}. FAM said that it did not converge: {failed}.
-- Arcs used over arcs needed (the fewest, shared out by length, with a true error within the tolerance): median {waste:.2f}, nine
+- Arcs used over arcs needed (the fewest, shared out by length, with a true error within the tolerance; looked for on a
+  quarter of the scenes): median {waste:.2f}, nine
   in ten below {waste90:.2f}. Below 1: by length alone more are needed.
 
 ![Promised and true error](promise.svg)
