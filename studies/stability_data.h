@@ -51,6 +51,13 @@ struct StabilityData {
 
 std::string axis_text(double value);  // "0.01", "1e-08"
 
+// Fewest arcs or elements of a column from which on every finer row is right; null: none.
+const StabilityCell* coarsest_right(const StabilityData& data, const StabilityMap& map, const std::string& method,
+                                    double x);
+
+std::string mechanism(const std::string& map);            // one sentence
+std::string mechanism_checks(const StabilityData& data);  // Markdown table: what was said, what was measured
+
 std::map<std::string, std::string> stability_tables(const StabilityData& data);
 std::map<std::string, std::string> stability_pictures(const StabilityData& data);
 std::string stability_page(const StabilityData& data);
