@@ -28,7 +28,7 @@ std::string chart(const std::vector<Promise>& promises) {
   panel.dots(kept, colour::sky, 0.8);
   panel.curve({{3e-10, 3e-10}, {3e-2, 3e-2}}, {colour::black, 1.5, ""});
   for (const Point& point : broken) panel.failure(point, colour::orange);
-  panel.name({2e-3, 2e-3}, "kept below this line", colour::black);
+  panel.name({1e-8, 1e-2}, "kept: below the line; broken: ×", colour::black);
   panel.place_names();
   return svg.str();
 }
