@@ -34,7 +34,6 @@ void exponential() {
   });
 }
 
-// Time an arc: items per second count the arcs.
 template <int D>
 void march(const std::string& what, const std::string& case_name, Law law, RodModel model, int arcs) {
   const std::string name = "march/" + what + "/" + fam::name(law) + "/" + kernel<D>() + "/" + std::to_string(arcs);
@@ -45,7 +44,6 @@ void march(const std::string& what, const std::string& case_name, Law law, RodMo
     while (state.KeepRunning()) {
       if (solver.run() != scene::Status::converged) state.SkipWithError("not converged");
     }
-    state.SetItemsProcessed(state.iterations() * solver.arc_count());
   });
 }
 
@@ -59,8 +57,7 @@ void boundary_value(const std::string& case_name, int arcs) {
     while (state.KeepRunning()) {
       if (solver.run() != scene::Status::converged) state.SkipWithError("not converged");
     }
-    state.counters["newton_iterations"] = solver.newton_steps();
-    state.counters["segments"] = solver.segment_count();
+    state.SetLabel(std::to_string(solver.newton_steps()) + " Newton iterations");
   });
 }
 
