@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <cmath>
+#include <map>
 
 namespace {
 
@@ -109,6 +111,24 @@ TEST(Command, WrongUsageIsExitStatusTwo) {
     EXPECT_EQ(outcome.out, "") << arguments;
   }
   EXPECT_EQ(run(fam, "--help").exit_status, 0);
+}
+
+// From a stability map to the failing cell: plain shooting on a branch that is far from the others' answer.
+TEST(Command, ACellOfAStabilityMapIsSolvedAgain) {
+  const Outcome cell = run(fam_studies, "cell direction 170 10");
+  ASSERT_EQ(cell.exit_status, 0) << cell.err;
+  std::map<std::string, json> tips;
+  for (const std::string options : {"fam", "exact", "rk4 --steps 16"}) {
+    const Outcome solved = run(fam_studies, "solve - --format json --method " + options, cell.out);
+    ASSERT_EQ(solved.exit_status, 0) << solved.err;
+    tips[options] = json::parse(solved.out)["tip"]["position_mm"];
+  }
+  EXPECT_NEAR(tips["fam"][0].get<double>(), tips["exact"][0].get<double>(), 0.1);
+  EXPECT_GT(std::abs(tips["rk4 --steps 16"][0].get<double>() - tips["exact"][0].get<double>()), 10);
+  const Outcome unknown = run(fam_studies, "cell nowhere 1");
+  EXPECT_EQ(unknown.exit_status, 2);
+  EXPECT_EQ(unknown.err, "no stability map is called \"nowhere\"\n");
+  EXPECT_EQ(run(fam_studies, "cell follower nan").exit_status, 2);
 }
 
 TEST(Command, UnwritablePictureIsExitStatusOne) {
