@@ -42,7 +42,7 @@ std::optional<int> falling_directions(const Shooting& shooting, const NodeStates
     const Matrix3d pivot = form.end_end + beyond;
     // Measured by the interval's own form, so that stiff and soft axes count alike; signs are the same (Sylvester).
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix3d> eigen(pivot, form.end_end, Eigen::EigenvaluesOnly);
-    const Eigen::Vector3d values = eigen.eigenvalues();
+    const Eigen::Vector3d& values = eigen.eigenvalues();
     if (!values.allFinite() || values.cwiseAbs().minCoeff() < neutral) return std::nullopt;
     count += static_cast<int>((values.array() < 0).count());
     beyond = form.start_start - symmetric_part(form.start_end * pivot.inverse() * form.start_end.transpose());
