@@ -92,7 +92,7 @@ BasicMotion<T, D> midpoint_step(const BasicArcConstants<D>& arc, const ArcForces
     wrench = wrench + growth(*forces, half);
   }
   screw = strain<with_shear>(arc, transport(half, middle));
-  const BasicMotion<T, D> motion = exponential(screw);
+  BasicMotion<T, D> motion = exponential(screw);
   wrench = transport(motion, wrench);
   return motion;
 }
@@ -114,7 +114,7 @@ BasicMotion<T, D> fourth_order_step(const BasicArcConstants<D>& arc, const ArcFo
   const BasicMotion<T, D> to4 = exponential(k3);
   const BasicScrew<T, D> k4 = strain<with_shear>(arc, transport(to4, grow(1, to3, l3)));
   screw = (1 / 6.) * (k1 + 2.0 * (k2 + k3) + k4) + (-1 / 12.) * bracket(k1, k4);
-  const BasicMotion<T, D> motion = exponential(screw);
+  BasicMotion<T, D> motion = exponential(screw);
   if (forces) {
     l4 = growth(*forces, to4);
     wrench = wrench + (1 / 6.) * (l1 + 2.0 * (l2 + l3) + l4);
@@ -211,7 +211,7 @@ BasicMotion<T, D> sixth_order_step(const BasicArcConstants<D>& arc, const ArcFor
                                    BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw) {
   if (!forces) {
     screw = magnus<with_shear>(rod_series<with_shear, 6>(arc, forces, wrench));
-    const BasicMotion<T, D> motion = exponential(screw);
+    BasicMotion<T, D> motion = exponential(screw);
     wrench = transport(motion, wrench);
     return motion;
   }
