@@ -1,10 +1,14 @@
 // The banded linear system of Newton's method: SUNDIALS' band matrix and LU decomposition with partial pivoting.
 #pragma once
 
+#include "exact_reference/shooting.h"
+
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
 #include <sunlinsol/sunlinsol_band.h>
 #include <sunmatrix/sunmatrix_band.h>
+
+#include <cmath>
 
 namespace exact_reference {
 
@@ -25,6 +29,19 @@ class BandSystem {
   void set_zero() { SUNMatZero(matrix_); }
   double& entry(long row, long column) { return SM_ELEMENT_B(matrix_, row, column); }
   bool factorise() { return SUNLinSolSetup(solver_, matrix_) == 0; }  // false: singular
+
+  // The determinant of the matrix last factorised: its sign, of the pivots and of the row exchanges, and the logarithm
+  // of its size.
+  Determinant determinant() const {
+    const sunindextype* exchanged = static_cast<SUNLinearSolverContent_Band>(solver_->content)->pivots;
+    Determinant result;
+    for (long k = 0; k < SM_COLUMNS_B(matrix_); ++k) {
+      const double pivot = SM_ELEMENT_B(matrix_, k, k);
+      result.negative ^= (pivot < 0) ^ (exchanged[k] != k);
+      result.log_size += std::log(std::abs(pivot));
+    }
+    return result;
+  }
 
   // The right hand side is put here and the solution read here.
   double* vector() { return N_VGetArrayPointer(x_); }

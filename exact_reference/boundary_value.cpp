@@ -39,6 +39,9 @@ struct Path {
   std::size_t fewest_intervals = shooting.mesh().size();
   double work = 0;
   bool watch_stability = false;  // conservative, and stable so far
+  Determinant determinant = {};  // of the equations' derivatives at y
+  double last_load = 0;          // one step before
+  Determinant last_determinant = {};
 
   Convergence newton(NodeStates& states, double load_factor, double tolerance, int max_iterations) {
     const Convergence result = shooting.newton(states, load_factor, tolerance, max_iterations);
@@ -50,13 +53,25 @@ struct Path {
   bool exhausted() const { return work > most_work + 100 * static_cast<double>(fewest_intervals); }
 };
 
-// Beside a buckling load the branches lie too close to be told apart by their distance: a step from a stable to an
-// unstable equilibrium is refused, too, unless it is as short as this. Only a rod that its symmetry holds on the
-// unstable branch gets past it (a column loaded exactly on its axis).
+// Beside a buckling or turning point the branches lie too close to be told apart by their distance: a step whose
+// determinant tells of another branch is refused, too, and with loads that have an energy one from a stable to an
+// unstable equilibrium, unless it is as short as this. Only a rod that its symmetry holds on the unstable branch gets
+// past it (a column loaded exactly on its axis).
 constexpr double smallest_bifurcation_step = 1e-5;
 
-// Predicts, corrects, judges one step; leaves the path as it was if it is refused. Returns the miss, infinite if
-// refused.
+// The determinant that Newton's iteration ended with has another sign than that at the load before; or it was going to
+// have, but has turned back: where it vanishes two branches part, on which it rises twice as fast as it fell.
+bool on_another_branch(const Path& path, double step) {
+  const Determinant now = path.shooting.determinant();
+  if (now.negative != path.determinant.negative) return true;
+  if (path.steps == 0 || path.last_determinant.negative != now.negative) return false;
+  const double fall = std::expm1(path.last_determinant.log_size - path.determinant.log_size);
+  const double expected = 1 - step / (path.load - path.last_load) * fall;  // in units of that at the load before
+  return expected < 0 && std::exp(now.log_size - path.determinant.log_size) > -expected;
+}
+
+// Predicts, corrects, judges one step from the state that the tangent belongs to; leaves the path as it was if it is
+// refused. Returns the miss, infinite if refused.
 double try_step(Path& path, const std::vector<Core>& tangent, double step) {
   NodeStates predicted = path.y;
   for (std::size_t k = 0; k < predicted.size(); ++k) predicted[k].head<core_size>() += step * tangent[k];
@@ -66,6 +81,7 @@ double try_step(Path& path, const std::vector<Core>& tangent, double step) {
   const double miss = largest_turn(corrected, predicted);
   const bool jumped = !(miss <= largest_miss_rad) || !(largest_turn(corrected, path.y) <= largest_turn_rad);
   if (!newton.converged || jumped) return HUGE_VAL;
+  if (step > smallest_bifurcation_step && on_another_branch(path, step)) return HUGE_VAL;
   if (path.watch_stability && falling_directions(path.shooting, corrected, path.load + step).value_or(0) > 0) {
     if (step > smallest_bifurcation_step) return HUGE_VAL;
     path.watch_stability = false;
@@ -91,6 +107,7 @@ bool follow_load(Path& path) {
   double step = 1;
   while (path.load < 1) {
     const std::vector<Core> tangent = path.shooting.tangent(path.y, path.load);
+    path.determinant = path.shooting.determinant();
     if (first_step == 0) {
       double slope = 0;
       for (const Core& t : tangent) slope = std::max(slope, 2 * t.head<4>().norm());
@@ -102,6 +119,8 @@ bool follow_load(Path& path) {
       const double trial = to_the_end ? 1 - path.load : step;
       miss = try_step(path, tangent, trial);
       if (miss < HUGE_VAL) {
+        path.last_load = path.load;
+        path.last_determinant = path.determinant;
         path.load = to_the_end ? 1 : path.load + trial;
         step = trial;
         break;

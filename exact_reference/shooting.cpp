@@ -161,6 +161,10 @@ std::vector<Core> Shooting::tangent(const NodeStates& y, double load_factor) {
   return result;
 }
 
+Determinant Shooting::determinant() const {
+  return band_->determinant();
+}
+
 double Shooting::local_error(const NodeStates& y, double load_factor, const Core& weight, std::size_t i) const {
   const RodEquations rod = equations(i, load_factor);
   const double h = mesh_[i].length;

@@ -29,6 +29,11 @@ struct Convergence {
   double last_update = 0;  // largest change of a component; rotations in half radians, wrenches relative to the largest
 };
 
+struct Determinant {
+  double log_size = 0;
+  bool negative = false;
+};
+
 class BandSystem;
 
 class Shooting {
@@ -53,6 +58,10 @@ class Shooting {
   // Convergence, position over L). Returns whether any was split; more than max_intervals: no split, false.
   bool refine(NodeStates& y, double load_factor, double tolerance, int max_intervals);
   void halve(NodeStates& y, double load_factor);
+
+  // Of the matrix that newton() or tangent() factorised last. It does not depend on the mesh; its sign differs from one
+  // branch to the next.
+  Determinant determinant() const;
 
   // Sets the positions, which Newton's unknowns do not hold.
   void integrate_positions(NodeStates& y, double load_factor) const;
