@@ -24,12 +24,14 @@ class BandSystem {
   double& operator()(int row, int column) { return rows_[static_cast<std::size_t>(row)][column - row + below]; }
   Eigen::VectorXd& right() { return right_; }
 
-  // After solve(): the sign of the determinant.
+  // After solve(): the determinant's sign, and the logarithm of its size.
   bool determinant_is_negative() const { return negative_; }
+  double log_determinant() const { return log_determinant_; }
 
   // Replaces the right-hand side by the solution; the matrix is used up. False: a pivot is 0 or not finite.
   bool solve() {
     negative_ = false;
+    log_determinant_ = 0;
     for (int k = 0; k < size_; ++k) {
       const int last_row = std::min(k + below, size_ - 1);
       const int width = std::min(below + above, size_ - 1 - k) + 1;  // pivoting fills `below` more diagonals
@@ -45,6 +47,7 @@ class BandSystem {
       }
       if (!(std::abs(*top) > 0) || !std::isfinite(*top)) return false;
       negative_ ^= *top < 0;
+      log_determinant_ += std::log(std::abs(*top));
       for (int i = k + 1; i <= last_row; ++i) {
         double* row = &(*this)(i, k);
         if (*row == 0) continue;
@@ -65,6 +68,7 @@ class BandSystem {
   using Row = Eigen::Array<double, 2 * below + above + 1, 1>;  // from the lowest diagonal up, and what pivoting fills
   int size_ = 0;
   bool negative_ = false;
+  double log_determinant_ = 0;
   std::vector<Row> rows_;
   Eigen::VectorXd right_;
 };

@@ -125,7 +125,7 @@ void BasicBoundaryValue<D>::cut_into_segments() {
     for (int arc = span_arcs_[i].end_arc; arc-- > span_arcs_[i].first_arc;) {
       force += per_mm * h;
       const double stiffness = planar ? span.stiffness.bending_Nmm2.minCoeff() : least_stiffness_Nmm2(span);
-      const double growth = h * std::sqrt(force / stiffness);
+      const double growth = h * (std::sqrt(force / stiffness) + (D == 3 ? moment * moment_growth_per_Nmm2(span) : 0));
       total_growth_ += growth;
       total_turn_rad_ += h * moment / least_stiffness_Nmm2(span);
       if (D == 3) {  // in the plane bent rods are as good as straight ones
@@ -402,13 +402,37 @@ bool BasicBoundaryValue<D>::solve_at_once() {
   return newton(newton_tolerance_);
 }
 
+// At the solution for the current load.
+template <int D>
+typename BasicBoundaryValue<D>::Orientation BasicBoundaryValue<D>::orientation() {
+  if (segments_.size() > 1) return {factor_, system_.log_determinant(), system_.determinant_is_negative()};
+  SegmentEquations equations;
+  evaluate_segment<turns>(0, equations);
+  const double determinant = equations.arrival.template topLeftCorner<turns, turns>().determinant();
+  return {factor_, std::log(std::abs(determinant)), determinant < 0};
+}
+
+// The determinant has changed its sign since the last load; or it was going to, but has turned back: the rod has left
+// for one of the two branches that part where it vanishes, which rise twice as fast as the old one falls.
+template <int D>
+bool BasicBoundaryValue<D>::on_another_branch(const Orientation& now, const Orientation& last,
+                                              const Orientation& before) const {
+  if (load_steps_ == 0) return false;
+  if (now.negative != last.negative) return true;
+  if (load_steps_ == 1 || before.negative != last.negative) return false;
+  const double ahead = (now.factor - last.factor) / (last.factor - before.factor);
+  const double expected = 1 - ahead * std::expm1(before.log_size - last.log_size);  // in units of the last
+  return expected < 0 && std::exp(now.log_size - last.log_size) > -expected;
+}
+
 template <int D>
 bool BasicBoundaryValue<D>::grow_load() {
   if (one_equilibrium() && solve_at_once()) return true;
   start_unloaded();
   load_steps_ = 0;
   bool watch_stability = conservative(spans_);
-  bool orientation = false;
+  const bool symmetric = is_symmetric(spans_);
+  Orientation last, before;
   double step = std::min(1.0, std::max(0.02, 1 / (total_growth_ * total_growth_ + total_turn_rad_)));
   while (factor_ < 1) {
     const double from = factor_;
@@ -425,17 +449,16 @@ bool BasicBoundaryValue<D>::grow_load() {
       surprise = std::max(surprise,
                           rotation_vector(Rotation(nodes_[k].rotation_SB * guess[k].rotation_SB.transpose())).norm());
     }
-    if (accepted && watch_stability && stable() == false) {
-      if (to - from > smallest_bifurcation_step) accepted = false;
-      else watch_stability = false;
-    }
-    if (accepted && load_steps_ > 0 && slope_is_negative() != orientation) {
-      if (to - from > smallest_bifurcation_step) accepted = false;
-    }
     const double allowed_surprise = load_steps_ == 0 ? largest_turn_rad / 2 : largest_surprise_rad;
     accepted = accepted && turn <= largest_turn_rad && surprise <= allowed_surprise;
+    const bool may_cross = symmetric && to - from <= smallest_bifurcation_step;
+    const bool falls = accepted && watch_stability && stable() == false;
+    const Orientation now = accepted ? orientation() : last;
+    if (may_cross) watch_stability = watch_stability && !falls;
+    else accepted = accepted && !falls && !on_another_branch(now, last, before);
     if (accepted) {
-      orientation = slope_is_negative();
+      before = last;
+      last = now;
       previous_ = start;
       previous_factor_ = from;
       ++load_steps_;

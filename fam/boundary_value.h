@@ -3,20 +3,22 @@
 // Fixed loads have known components in the section frame only once the rod's rotation is known, so the march starts
 // from a guessed tip rotation and must arrive at the clamp with R = I. Long marches are ill-conditioned: a change at
 // the tip grows like exp(w) towards the clamp, w = integral of sqrt(force / EI) ds (sqrt(|F| L^2 / EI) for a tip force
-// F). So the rod is cut into segments of w <= segment_growth, the pose and wrench at their ends are unknowns too, and
-// all are solved for together (multiple shooting; 3 unknowns with one segment, 9 more with each further one; cost
-// linear in the arcs and the segments).
+// F); in space a moment M about the axis of middle stiffness adds M sqrt((c2 - c1)(c3 - c2)) ds, with the compliances
+// 1/GJ, 1/EI_y, 1/EI_z in order. So the rod is cut into segments of w <= segment_growth, the pose and wrench at their ends
+// are unknowns too, and all are solved for together (multiple shooting; 3 unknowns with one segment, 9 more with each
+// further one; cost linear in the arcs and the segments).
 //
-// Branch. Below unique_load a rod under fixed forces has one equilibrium, its energy being convex up to
-// w^2 = pi^2/4 (w with the least of EI and GJ; with EI in planar scenes), and the full load is solved for at once, as
-// long as the moments turn the rod by no more than largest_turn_rad. Beyond it the load
-// grows from zero in steps; a step is taken only if Newton converges and no segment end turns by more than
-// largest_turn_rad in it nor lies farther than largest_surprise_rad from where the last two steps pointed. Beside a
-// buckling or turning point the branches lie too close to be told apart by their distance, but the sign of the
-// equations' determinant differs from one to the next: a step that changes it is shortened as well, and where the loads
-// have an energy one that ends unstable, down to smallest_bifurcation_step. Only a rod whose symmetry holds it on
-// the unstable branch passes (a column loaded exactly on its axis stays straight). So the answer is the equilibrium
-// that the rod reaches when its loads grow together from zero; a snap-through ends in load_step_too_small.
+// Branch. Below unique_load a rod under fixed forces has one equilibrium, its energy being convex up to w^2 = pi^2/4 (w
+// with the least of EI and GJ; with EI in planar scenes), and the full load is solved for at once, as long as the
+// moments turn the rod by no more than largest_turn_rad. Beyond it the load grows from zero in steps; a step is taken
+// only if Newton converges and no segment end turns by more than largest_turn_rad in it nor lies farther than
+// largest_surprise_rad from where the last two steps pointed. Beside a buckling or turning point the branches lie too
+// close to be told apart by their distance, but the sign of the equations' determinant differs from one to the next: a
+// step that changes it is shortened as well, or one in which it turns back before the zero that it was heading for, and
+// where the loads have an energy one that ends unstable. Only a rod that its symmetry can hold on the unstable branch
+// passes (a column loaded exactly on its axis stays straight), by steps no longer than smallest_bifurcation_step. So
+// the answer is the equilibrium that the rod reaches when its loads grow together from zero; a snap-through ends in
+// load_step_too_small.
 #pragma once
 
 #include "fam/band_solver.h"
@@ -99,6 +101,11 @@ class BasicBoundaryValue {
     bool distributed;
     int first_arc, end_arc;
   };
+  struct Orientation {  // determinant of the equations' derivatives at a load
+    double factor = 0;
+    double log_size = 0;
+    bool negative = false;
+  };
   struct Segment {
     int first_arc, end_arc;  // arcs first_arc..end_arc-1, the last of them marched first
   };
@@ -118,9 +125,8 @@ class BasicBoundaryValue {
   void start_unloaded();
   std::vector<State<double>> predict(double factor) const;
   bool newton(double tolerance);
-  bool slope_is_negative() const {
-    return segments_.size() == 1 ? slope_.determinant() < 0 : system_.determinant_is_negative();
-  }
+  Orientation orientation();
+  bool on_another_branch(const Orientation& now, const Orientation& last, const Orientation& before) const;
   bool newton_one_segment(bool fresh_slope, double tolerance);
   bool solve_at_once();
   bool newton_segments(double tolerance);

@@ -1,6 +1,7 @@
 #include "fam/scene_facts.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fam {
 
@@ -28,6 +29,18 @@ bool is_planar(std::span<const Span> spans) {
   return about(2) || about(1);
 }
 
+bool is_symmetric(std::span<const Span> spans) {
+  const auto along_axis = [](const Eigen::Vector3d& v) { return v[1] == 0 && v[2] == 0; };
+  return is_planar(spans) || std::all_of(spans.begin(), spans.end(), [&](const Span& span) {
+           const auto wrench_along_axis = [&](const scene::Wrench& w) {
+             return along_axis(w.force_N) && along_axis(w.moment_Nmm);
+           };
+           return wrench_along_axis(span.follower_load_S) && wrench_along_axis(span.fixed_load_B) &&
+                  wrench_along_axis(span.tendon_S) && along_axis(span.follower_force_S_N_per_mm) &&
+                  along_axis(span.fixed_force_B_N_per_mm) && along_axis(span.rest_curvature_per_mm);
+         });
+}
+
 bool conservative(std::span<const Span> spans) {
   return std::all_of(spans.begin(), spans.end(), [](const Span& span) {
     return span.follower_load_S.is_zero() && span.follower_force_S_N_per_mm.isZero(0) &&
@@ -37,6 +50,13 @@ bool conservative(std::span<const Span> spans) {
 
 double least_stiffness_Nmm2(const Span& span) {
   return std::min(span.stiffness.torsion_Nmm2, span.stiffness.bending_Nmm2.minCoeff());
+}
+
+double moment_growth_per_Nmm2(const Span& span) {
+  Eigen::Vector3d c(span.stiffness.torsion_Nmm2, span.stiffness.bending_Nmm2[0], span.stiffness.bending_Nmm2[1]);
+  c = c.cwiseInverse().eval();
+  std::sort(c.begin(), c.end());
+  return std::sqrt((c[1] - c[0]) * (c[2] - c[1]));
 }
 
 }  // namespace fam
