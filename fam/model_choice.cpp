@@ -134,12 +134,15 @@ double largest_growth(std::span<const Span> spans, std::span<const int> arcs_per
   return largest;
 }
 
-std::vector<int> first_arcs(std::span<const Span> spans) {
+std::vector<int> first_arcs(std::span<const Span> spans, bool planar) {
   std::vector<int> arcs(spans.size(), 1);
-  double force = 0;
+  double force = 0, moment = 0;
   for (std::size_t i = spans.size(); i-- > 0;) {
-    force += add_force_N(spans[i]);
-    const double growth = spans[i].length_mm() * std::sqrt(force / least_stiffness_Nmm2(spans[i]));
+    const Span& span = spans[i];
+    force += add_force_N(span);
+    moment += span.follower_load_S.moment_Nmm.norm() + span.fixed_load_B.moment_Nmm.norm();
+    const double by_moment = planar ? 0 : moment * moment_growth_per_Nmm2(span);
+    const double growth = span.length_mm() * (std::sqrt(force / least_stiffness_Nmm2(span)) + by_moment);
     arcs[i] = static_cast<int>(std::clamp(std::ceil(growth / 1.5), 1.0, 1000.0));
   }
   return arcs;

@@ -31,8 +31,8 @@ struct RodChoice {
 RodChoice choose_rod(std::span<const scene::Span> spans, RodModel wanted, double tolerance_mm);
 
 // Arcs of each span to start with: one where the strain is constant, else as many as it takes that no arc sees more
-// than a growth of sqrt(force / EI) h = 1.5.
-std::vector<int> first_arcs(std::span<const scene::Span> spans);
+// than a growth of 1.5: sqrt(force / EI) h and, in space, moment_growth_per_Nmm2 times the moment and h.
+std::vector<int> first_arcs(std::span<const scene::Span> spans, bool planar);
 
 // The largest growth sqrt(force / EI) h that an arc sees, EI the least stiffness of its span.
 double largest_growth(std::span<const scene::Span> spans, std::span<const int> arcs_per_span);

@@ -231,12 +231,12 @@ std::string rounded(double value) {
   return text.str();
 }
 
-Equilibrium too_long_for_series(double growth, double turn_rad) {
+Equilibrium too_long_for_series(double growth, double reach_rad) {
   Equilibrium result;
   result.status = Status::arc_not_converged;
   result.message = "the series of an arc does not reach its end: it grows by sqrt(force / EI) h = " + rounded(growth) +
-                   " (largest: " + rounded(resolved_growth) + ") and turns by " + rounded(turn_rad) +
-                   " rad (largest: " + rounded(resolved_turn_rad) + "); take more arcs, or the law fourth_order";
+                   " (largest: " + rounded(resolved_growth) + ") and turns or swings by " + rounded(reach_rad) +
+                   " rad (largest: " + rounded(resolved_reach_rad) + "); take more arcs, or the law fourth_order";
   return result;
 }
 
@@ -288,16 +288,51 @@ Equilibrium success(const Task& task, const Run& run, const std::vector<int>& ar
   return result;
 }
 
-// Largest turn of an arc; 0 where no force acts, so that any arc of a round rod is exact.
-double largest_turn_rad_under_force(const Task& task, const Run& run) {
-  if (largest_growth(task.spans, std::vector<int>(task.spans.size(), 1)) == 0) return 0;
-  return std::visit(
-      [](const auto& solver) {
-        double largest = 0;
-        for (const auto& arc : solver.arcs()) largest = std::max(largest, arc.screw.rotation.norm());
-        return largest;
-      },
-      run.prepared.solver);
+// Strain k of an arc that turns by k h, and the moment m = K (k - k0) - tendons' of its section.
+struct ArcMoment {
+  Vector3d strain_per_mm, moment_Nmm;
+  Vector3d stiffness_Nmm2;
+  double scale;  // of m x k
+
+  ArcMoment(const Span& span, const Vector3d& turn_rad, double h_mm)
+      : strain_per_mm(turn_rad / h_mm),
+        stiffness_Nmm2(span.stiffness.torsion_Nmm2, span.stiffness.bending_Nmm2[0], span.stiffness.bending_Nmm2[1]) {
+    const Vector3d elastic_Nmm = stiffness_Nmm2.cwiseProduct(strain_per_mm - span.rest_curvature_per_mm);
+    moment_Nmm = elastic_Nmm - span.tendon_S.moment_Nmm;
+    scale = (elastic_Nmm.norm() + span.tendon_S.moment_Nmm.norm()) * strain_per_mm.norm();
+  }
+
+  // Without force m' = m x k, and an arc with m along k is exact.
+  bool is_steady() const { return moment_Nmm.cross(strain_per_mm).norm() <= 1e-12 * scale; }
+
+  // At which m grows or swings about this solution: from the slope of m x k with respect to m, whose trace is 0.
+  double rate_per_mm() const {
+    Matrix3d slope;
+    for (int i = 0; i < 3; ++i) {
+      slope.col(i) = (moment_Nmm / stiffness_Nmm2[i] - strain_per_mm).cross(Vector3d::Unit(i));
+    }
+    return std::sqrt(std::abs((slope * slope).trace()) / 2);
+  }
+};
+
+// How far the arcs reach at most: the turn of one, or in space what its moment grows or swings by if that is more. Arcs
+// that no force acts on and whose moment is steady do not count: they are exact.
+double largest_reach_rad(const Task& task, const Run& run, const std::vector<int>& arcs) {
+  const bool free_of_force = largest_growth(task.spans, std::vector<int>(task.spans.size(), 1)) == 0;
+  const bool planar = task.choice.plane.has_value();
+  if (free_of_force && planar) return 0;
+  const std::vector<Arc> solved = arcs_of(run.prepared);
+  auto arc = solved.begin();
+  double largest = 0;
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    const double h_mm = task.spans[i].length_mm() / arcs[i];
+    for (int k = 0; k < arcs[i]; ++k, ++arc) {
+      const ArcMoment state(task.spans[i], arc->screw.rotation, h_mm);
+      if (free_of_force && state.is_steady()) continue;
+      largest = std::max({largest, arc->screw.rotation.norm(), planar ? 0 : h_mm * state.rate_per_mm()});
+    }
+  }
+  return largest;
 }
 
 Equilibrium solve_fixed(const Task& task) {
@@ -305,9 +340,9 @@ Equilibrium solve_fixed(const Task& task) {
   const Run run(task.spans, arcs, task.choice, task.options);
   if (run.status != Status::converged) return failure(run);
   const double growth = largest_growth(task.spans, arcs);
-  const double turn_rad = largest_turn_rad_under_force(task, run);
-  const bool resolved = growth <= resolved_growth && turn_rad <= resolved_turn_rad;
-  if (!resolved && task.choice.law == Law::sixth_order) return too_long_for_series(growth, turn_rad);
+  const double reach_rad = largest_reach_rad(task, run, arcs);
+  const bool resolved = growth <= resolved_growth && reach_rad <= resolved_reach_rad;
+  if (!resolved && task.choice.law == Law::sixth_order) return too_long_for_series(growth, reach_rad);
   double error = 0;
   if (task.options.estimate_error) {
     const Run twice(task.spans, times(arcs, 2), task.choice, task.options, &run);
@@ -320,21 +355,24 @@ Equilibrium solve_fixed(const Task& task) {
   return success(task, run, arcs, error + task.choice.rod.left_out_mm, "number of arcs given");
 }
 
-// The answer with more arcs, from that with fewer. Where that one is far off, or does not lead there, the loads grow
-// from nothing once more: arcs that are too long may have taken it to another branch.
-Run refined(const Task& task, const std::vector<int>& arcs, const Run& coarse, int first_count) {
+// The answer with more arcs, from that with fewer. Where that one is far off, or its arcs are too long to lead there,
+// the loads grow from nothing once more: it may lie on another branch.
+Run refined(const Task& task, const std::vector<int>& arcs, const Run& coarse, const std::vector<int>& coarse_arcs,
+            int first_count) {
+  const auto afresh = [&] { return Run(task.spans, arcs, task.choice, task.options); };
+  if (coarse.marched() || coarse.status != Status::converged) return afresh();
+  if (largest_reach_rad(task, coarse, coarse_arcs) > leading_reach_rad) return afresh();
   Run fine(task.spans, arcs, task.choice, task.options, &coarse);
-  if (fine.marched() || coarse.status != Status::converged) return fine;
   const bool near = fine.status == Status::converged &&
                     distance_mm(coarse, fine, first_count) <= leading_distance * task.spans.back().end_mm;
-  return near ? std::move(fine) : Run(task.spans, arcs, task.choice, task.options);
+  return near ? std::move(fine) : afresh();
 }
 
 // Runs with growing multiples of the first arcs, each compared with the one before at the ends of the first arcs.
 Equilibrium solve_to_tolerance(const Task& task) {
   const double p = order(task.choice.law);
   const double length_mm = task.spans.back().end_mm;
-  const std::vector<int> first = first_arcs(task.spans);
+  const std::vector<int> first = first_arcs(task.spans, task.choice.plane.has_value());
   int count = 0;
   for (const int arcs : first) count += arcs;
   int multiple = 1;
@@ -344,20 +382,21 @@ Equilibrium solve_to_tolerance(const Task& task) {
   int next = 2;
   while (static_cast<double>(next) * count <= max_arcs && (coarse->marched() || failures < 4)) {
     const std::vector<int> arcs = times(first, next);
-    Run fine = refined(task, arcs, *coarse, count);
+    const std::vector<int> coarse_arcs = times(first, multiple);
+    Run fine = refined(task, arcs, *coarse, coarse_arcs, count);
     const double ratio = static_cast<double>(next) / multiple;
     int after = 2 * next;
     if (fine.status != Status::converged) ++failures;
     if (coarse->status == Status::converged && fine.status == Status::converged) {
       const double d = distance_mm(*coarse, fine, count);
-      const auto meets = [&](const Run& run, double estimate) {
+      const auto meets = [&](const Run& run, const std::vector<int>& its_arcs, double estimate) {
         error = estimate + round_off_mm(task.spans, run) + task.choice.rod.left_out_mm;
-        if (largest_turn_rad_under_force(task, run) > resolved_turn_rad) error = std::max(error, length_mm);
+        if (largest_reach_rad(task, run, its_arcs) > resolved_reach_rad) error = std::max(error, length_mm);
         return error <= task.tolerance_mm;
       };
       const std::string reason = "fewest arcs found whose estimate meets the tolerance";
-      if (meets(*coarse, coarse_safety * d)) return success(task, *coarse, times(first, multiple), error, reason);
-      if (meets(fine, d * (fine_safety / (std::pow(ratio, p - 1) - 1) + distrust * d / length_mm))) {
+      if (meets(*coarse, coarse_arcs, coarse_safety * d)) return success(task, *coarse, coarse_arcs, error, reason);
+      if (meets(fine, arcs, d * (fine_safety / (std::pow(ratio, p - 1) - 1) + distrust * d / length_mm))) {
         return success(task, fine, arcs, error, reason);
       }
       const double growth = 1.05 * std::pow(error / task.tolerance_mm, 1 / p);

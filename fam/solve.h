@@ -36,7 +36,7 @@ const char* name(Law law);
 //   unsupported        published law with a fixed or distributed load, with shear or EI_y != EI_z
 //   load_step_too_small, not_converged   see fam/boundary_value.h
 //   arc_not_converged  published law: see fam/arc_law.h; sixth_order with fixed arcs: an arc that grows by more than
-//                      resolved_growth or turns by more than resolved_turn_rad
+//                      resolved_growth or reaches farther than resolved_reach_rad
 //   tolerance_not_met  estimated tip error > tolerance with max_arcs arcs
 //   not_finite         overflow
 //
@@ -59,12 +59,14 @@ scene::Equilibrium solve(const scene::Scene& scene, const Options& options = {})
 constexpr double coarse_safety = 1.5;
 constexpr double fine_safety = 4;
 constexpr double distrust = 4;
-// An answer farther than this times L from the next finer one does not lead there: that one's loads grow from nothing.
+// An answer farther than this times L from the next finer one, or one whose arcs reach farther, does not lead there:
+// that one's loads grow from nothing.
 constexpr double leading_distance = 0.05;
+constexpr double leading_reach_rad = 1.25;
 // Arcs longer than this do not see the load's length or the rod's turns, and two resolutions may agree by chance: the
 // estimate is then at least L, and the series of sixth_order have no answer at all.
-constexpr double resolved_growth = 2.5;    // sqrt(force / EI) h
-constexpr double resolved_turn_rad = 2.5;  // of an arc, where a force acts
+constexpr double resolved_growth = 2.5;     // sqrt(force / EI) h
+constexpr double resolved_reach_rad = 2.5;  // an arc's turn, or what its moment grows or swings by; 0 if that is steady
 
 // The solver that options with fixed arcs, law and model describe, with its memory; empty where solve() would end in
 // `unsupported`, with the reason. run_prepared does not allocate for a march, nor for a boundary value problem of one
