@@ -425,59 +425,78 @@ bool BasicBoundaryValue<D>::on_another_branch(const Orientation& now, const Orie
   return expected < 0 && std::exp(now.log_size - last.log_size) > -expected;
 }
 
+// One load step, taken or undone. Returns the surprise, the largest rotation that was not predicted, in units of what
+// is allowed; empty if refused.
+template <int D>
+std::optional<double> BasicBoundaryValue<D>::try_step(double to, BranchWatch& watch) {
+  const double from = factor_;
+  const std::vector<State<double>> start = nodes_;
+  const std::vector<State<double>> guess = predict(to);
+  nodes_ = guess;
+  set_load(to);
+  bool accepted = newton(to < 1 ? std::max(newton_tolerance_, load_step_tolerance) : newton_tolerance_);
+  double turn = 0;
+  double surprise = 0;
+  for (std::size_t k = 0; accepted && k < nodes_.size(); ++k) {
+    turn = std::max(turn, rotation_vector(Rotation(nodes_[k].rotation_SB * start[k].rotation_SB.transpose())).norm());
+    surprise =
+        std::max(surprise, rotation_vector(Rotation(nodes_[k].rotation_SB * guess[k].rotation_SB.transpose())).norm());
+  }
+  surprise /= load_steps_ == 0 ? largest_turn_rad / 2 : largest_surprise_rad;
+  accepted = accepted && turn <= largest_turn_rad && surprise <= 1;
+  if (accepted && stays_on_branch(to - from, watch)) {
+    previous_ = start;
+    previous_factor_ = from;
+    ++load_steps_;
+    return surprise;
+  }
+  nodes_ = start;
+  set_load(from);
+  return std::nullopt;
+}
+
+// Judges the solution that a step of this length has led to, and remembers it if it is on the branch.
+template <int D>
+bool BasicBoundaryValue<D>::stays_on_branch(double step, BranchWatch& watch) {
+  const Orientation now = orientation();
+  const bool falls = watch.stability && stable() == false;
+  const bool may_cross = watch.symmetric && step <= smallest_bifurcation_step;
+  if (!may_cross && (falls || on_another_branch(now, watch.last, watch.before))) return false;
+  watch.stability = watch.stability && !falls;
+  watch.before = watch.last;
+  watch.last = now;
+  return true;
+}
+
+// Whether load steps this short, or the work done, are the end of it; message_ says so.
+template <int D>
+bool BasicBoundaryValue<D>::gives_up(double step) {
+  const std::string reached = std::to_string(100 * factor_) + " % of the load";
+  const long long marched = static_cast<long long>(newton_steps_) * arc_count();
+  if (marched > std::max<long long>(most_arcs_marched, static_cast<long long>(growth_passes) * arc_count())) {
+    message_ = "work limit: " + std::to_string(marched) + " arcs marched and only " + reached + " reached";
+    return true;
+  }
+  if (step >= smallest_load_step) return false;
+  message_ = "the load step fell below " + std::to_string(smallest_load_step) + " at " + reached;
+  return true;
+}
+
 template <int D>
 bool BasicBoundaryValue<D>::grow_load() {
   if (one_equilibrium() && solve_at_once()) return true;
   start_unloaded();
   load_steps_ = 0;
-  bool watch_stability = conservative(spans_);
-  const bool symmetric = is_symmetric(spans_);
-  Orientation last, before;
+  BranchWatch watch{is_symmetric(spans_), conservative(spans_), {}, {}};
   double step = std::min(1.0, std::max(0.02, 1 / (total_growth_ * total_growth_ + total_turn_rad_)));
   while (factor_ < 1) {
     const double from = factor_;
     const double to = 1 - from <= 1.001 * step ? 1 : from + step;
-    const std::vector<State<double>> start = nodes_;
-    const std::vector<State<double>> guess = predict(to);
-    nodes_ = guess;
-    set_load(to);
-    bool accepted = newton(to < 1 ? std::max(newton_tolerance_, load_step_tolerance) : newton_tolerance_);
-    double turn = 0;
-    double surprise = 0;
-    for (std::size_t k = 0; accepted && k < nodes_.size(); ++k) {
-      turn = std::max(turn, rotation_vector(Rotation(nodes_[k].rotation_SB * start[k].rotation_SB.transpose())).norm());
-      surprise = std::max(surprise,
-                          rotation_vector(Rotation(nodes_[k].rotation_SB * guess[k].rotation_SB.transpose())).norm());
-    }
-    const double allowed_surprise = load_steps_ == 0 ? largest_turn_rad / 2 : largest_surprise_rad;
-    accepted = accepted && turn <= largest_turn_rad && surprise <= allowed_surprise;
-    const bool may_cross = symmetric && to - from <= smallest_bifurcation_step;
-    const bool falls = accepted && watch_stability && stable() == false;
-    const Orientation now = accepted ? orientation() : last;
-    if (may_cross) watch_stability = watch_stability && !falls;
-    else accepted = accepted && !falls && !on_another_branch(now, last, before);
-    if (accepted) {
-      before = last;
-      last = now;
-      previous_ = start;
-      previous_factor_ = from;
-      ++load_steps_;
-      step *= surprise < allowed_surprise / 4 ? 2 : 1.2;
+    if (const std::optional<double> surprise = try_step(to, watch)) {
+      step *= *surprise < 0.25 ? 2 : 1.2;
     } else {
-      nodes_ = start;
-      set_load(from);
       step = (to - from) / 2;
-      const long long marched = static_cast<long long>(newton_steps_) * arc_count();
-      if (marched > std::max<long long>(most_arcs_marched, static_cast<long long>(growth_passes) * arc_count())) {
-        message_ = "work limit: " + std::to_string(marched) + " arcs marched and only " +
-                   std::to_string(100 * factor_) + " % of the load reached";
-        return false;
-      }
-      if (step < smallest_load_step) {
-        message_ = "the load step fell below " + std::to_string(smallest_load_step) + " at " +
-                   std::to_string(100 * factor_) + " % of the load";
-        return false;
-      }
+      if (gives_up(step)) return false;
     }
   }
   return true;

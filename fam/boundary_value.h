@@ -4,9 +4,9 @@
 // from a guessed tip rotation and must arrive at the clamp with R = I. Long marches are ill-conditioned: a change at
 // the tip grows like exp(w) towards the clamp, w = integral of sqrt(force / EI) ds (sqrt(|F| L^2 / EI) for a tip force
 // F); in space a moment M about the axis of middle stiffness adds M sqrt((c2 - c1)(c3 - c2)) ds, with the compliances
-// 1/GJ, 1/EI_y, 1/EI_z in order. So the rod is cut into segments of w <= segment_growth, the pose and wrench at their ends
-// are unknowns too, and all are solved for together (multiple shooting; 3 unknowns with one segment, 9 more with each
-// further one; cost linear in the arcs and the segments).
+// 1/GJ, 1/EI_y, 1/EI_z in order. So the rod is cut into segments of w <= segment_growth, the pose and wrench at their
+// ends are unknowns too, and all are solved for together (multiple shooting; 3 unknowns with one segment, 9 more with
+// each further one; cost linear in the arcs and the segments).
 //
 // Branch. Below unique_load a rod under fixed forces has one equilibrium, its energy being convex up to w^2 = pi^2/4 (w
 // with the least of EI and GJ; with EI in planar scenes), and the full load is solved for at once, as long as the
@@ -106,6 +106,11 @@ class BasicBoundaryValue {
     double log_size = 0;
     bool negative = false;
   };
+  struct BranchWatch {  // what the load steps must keep to
+    bool symmetric;     // the rod may cross to an unstable branch
+    bool stability;     // the loads have an energy, and the rod was stable so far
+    Orientation last, before;
+  };
   struct Segment {
     int first_arc, end_arc;  // arcs first_arc..end_arc-1, the last of them marched first
   };
@@ -130,6 +135,9 @@ class BasicBoundaryValue {
   bool newton_one_segment(bool fresh_slope, double tolerance);
   bool solve_at_once();
   bool newton_segments(double tolerance);
+  std::optional<double> try_step(double to, BranchWatch& watch);
+  bool stays_on_branch(double step, BranchWatch& watch);
+  bool gives_up(double step);
   bool grow_load();
   scene::Status finish(bool solved);
   template <class T, class After>
