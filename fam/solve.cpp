@@ -1,6 +1,7 @@
 #include "fam/solve.h"
 
 #include "fam/model_choice.h"
+#include "fam/reach.h"
 #include "fam/scene_facts.h"
 
 #include <algorithm>
@@ -288,51 +289,8 @@ Equilibrium success(const Task& task, const Run& run, const std::vector<int>& ar
   return result;
 }
 
-// Strain k of an arc that turns by k h, and the moment m = K (k - k0) - tendons' of its section.
-struct ArcMoment {
-  Vector3d strain_per_mm, moment_Nmm;
-  Vector3d stiffness_Nmm2;
-  double scale;  // of m x k
-
-  ArcMoment(const Span& span, const Vector3d& turn_rad, double h_mm)
-      : strain_per_mm(turn_rad / h_mm),
-        stiffness_Nmm2(span.stiffness.torsion_Nmm2, span.stiffness.bending_Nmm2[0], span.stiffness.bending_Nmm2[1]) {
-    const Vector3d elastic_Nmm = stiffness_Nmm2.cwiseProduct(strain_per_mm - span.rest_curvature_per_mm);
-    moment_Nmm = elastic_Nmm - span.tendon_S.moment_Nmm;
-    scale = (elastic_Nmm.norm() + span.tendon_S.moment_Nmm.norm()) * strain_per_mm.norm();
-  }
-
-  // Without force m' = m x k, and an arc with m along k is exact.
-  bool is_steady() const { return moment_Nmm.cross(strain_per_mm).norm() <= 1e-12 * scale; }
-
-  // At which m grows or swings about this solution: from the slope of m x k with respect to m, whose trace is 0.
-  double rate_per_mm() const {
-    Matrix3d slope;
-    for (int i = 0; i < 3; ++i) {
-      slope.col(i) = (moment_Nmm / stiffness_Nmm2[i] - strain_per_mm).cross(Vector3d::Unit(i));
-    }
-    return std::sqrt(std::abs((slope * slope).trace()) / 2);
-  }
-};
-
-// How far the arcs reach at most: the turn of one, or in space what its moment grows or swings by if that is more. Arcs
-// that no force acts on and whose moment is steady do not count: they are exact.
-double largest_reach_rad(const Task& task, const Run& run, const std::vector<int>& arcs) {
-  const bool free_of_force = largest_growth(task.spans, std::vector<int>(task.spans.size(), 1)) == 0;
-  const bool planar = task.choice.plane.has_value();
-  if (free_of_force && planar) return 0;
-  const std::vector<Arc> solved = arcs_of(run.prepared);
-  auto arc = solved.begin();
-  double largest = 0;
-  for (std::size_t i = 0; i < arcs.size(); ++i) {
-    const double h_mm = task.spans[i].length_mm() / arcs[i];
-    for (int k = 0; k < arcs[i]; ++k, ++arc) {
-      const ArcMoment state(task.spans[i], arc->screw.rotation, h_mm);
-      if (free_of_force && state.is_steady()) continue;
-      largest = std::max({largest, arc->screw.rotation.norm(), planar ? 0 : h_mm * state.rate_per_mm()});
-    }
-  }
-  return largest;
+double reach_rad(const Task& task, const Run& run, const std::vector<int>& arcs) {
+  return largest_reach_rad(task.spans, arcs, arcs_of(run.prepared), task.choice.plane.has_value());
 }
 
 Equilibrium solve_fixed(const Task& task) {
@@ -340,9 +298,9 @@ Equilibrium solve_fixed(const Task& task) {
   const Run run(task.spans, arcs, task.choice, task.options);
   if (run.status != Status::converged) return failure(run);
   const double growth = largest_growth(task.spans, arcs);
-  const double reach_rad = largest_reach_rad(task, run, arcs);
-  const bool resolved = growth <= resolved_growth && reach_rad <= resolved_reach_rad;
-  if (!resolved && task.choice.law == Law::sixth_order) return too_long_for_series(growth, reach_rad);
+  const double reach = reach_rad(task, run, arcs);
+  const bool resolved = growth <= resolved_growth && reach <= resolved_reach_rad;
+  if (!resolved && task.choice.law == Law::sixth_order) return too_long_for_series(growth, reach);
   double error = 0;
   if (task.options.estimate_error) {
     const Run twice(task.spans, times(arcs, 2), task.choice, task.options, &run);
@@ -361,7 +319,7 @@ Run refined(const Task& task, const std::vector<int>& arcs, const Run& coarse, c
             int first_count) {
   const auto afresh = [&] { return Run(task.spans, arcs, task.choice, task.options); };
   if (coarse.marched() || coarse.status != Status::converged) return afresh();
-  if (largest_reach_rad(task, coarse, coarse_arcs) > leading_reach_rad) return afresh();
+  if (reach_rad(task, coarse, coarse_arcs) > leading_reach_rad) return afresh();
   Run fine(task.spans, arcs, task.choice, task.options, &coarse);
   const bool near = fine.status == Status::converged &&
                     distance_mm(coarse, fine, first_count) <= leading_distance * task.spans.back().end_mm;
@@ -391,7 +349,7 @@ Equilibrium solve_to_tolerance(const Task& task) {
       const double d = distance_mm(*coarse, fine, count);
       const auto meets = [&](const Run& run, const std::vector<int>& its_arcs, double estimate) {
         error = estimate + round_off_mm(task.spans, run) + task.choice.rod.left_out_mm;
-        if (largest_reach_rad(task, run, its_arcs) > resolved_reach_rad) error = std::max(error, length_mm);
+        if (reach_rad(task, run, its_arcs) > resolved_reach_rad) error = std::max(error, length_mm);
         return error <= task.tolerance_mm;
       };
       const std::string reason = "fewest arcs found whose estimate meets the tolerance";
