@@ -549,15 +549,6 @@ scene::Status BasicBoundaryValue<D>::run_from(const BasicBoundaryValue& other) {
   return scene::Status::not_converged;
 }
 
-// Fields of small motions that leave the tip free, started there with three turns of it, marched to the clamp and
-// made the identity at each arc's end: their turn over one arc has a negative eigenvalue for each conjugate point in
-// it.
-template <int D>
-std::optional<bool> BasicBoundaryValue<D>::stable() const {
-  if constexpr (D == 2) return in_space().stable();
-  else return stable_in_space();
-}
-
 // The same rod, loads and solution among the rods in space.
 template <int D>
 BasicBoundaryValue<3> BasicBoundaryValue<D>::in_space() const {
@@ -576,8 +567,16 @@ BasicBoundaryValue<3> BasicBoundaryValue<D>::in_space() const {
   return rod;
 }
 
-template <int D>
-std::optional<bool> BasicBoundaryValue<D>::stable_in_space() const requires(D == 3) {
+template <>
+std::optional<bool> BasicBoundaryValue<2>::stable() const {
+  return in_space().stable();
+}
+
+// Fields of small motions that leave the tip free, started there with three turns of it, marched to the clamp and
+// made the identity at each arc's end: their turn over one arc has a negative eigenvalue for each conjugate point in
+// it.
+template <>
+std::optional<bool> BasicBoundaryValue<3>::stable() const {
   using Number = Dual<3>;
   int conjugate_points = 0;
   double nearest = 1;  // eigenvalue over the last arc: 0 at a conjugate point at the clamp

@@ -123,7 +123,6 @@ class BasicBoundaryValue {
     bool mismatch_is_small;  // a residual of half a turn vanishes too
   };
 
-  std::optional<bool> stable_in_space() const requires(D == 3);
   BasicBoundaryValue<3> in_space() const;
   void cut_into_segments();
   void set_load(double factor);
@@ -177,6 +176,11 @@ class BasicBoundaryValue {
   int newton_steps_ = 0;
   std::string message_;
 };
+
+template <>
+std::optional<bool> BasicBoundaryValue<2>::stable() const;
+template <>
+std::optional<bool> BasicBoundaryValue<3>::stable() const;
 
 using BoundaryValue = BasicBoundaryValue<3>;
 
