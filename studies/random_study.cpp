@@ -82,7 +82,7 @@ RandomOutcome second_opinion(std::uint64_t seed) {
   options.initial_load_step = 0.01;
   options.largest_rotation_rad = 0.1;
   options.max_load_steps = 3000;
-  const scene::Equilibrium answer = fem_reference::solve(scene, options);
+  scene::Equilibrium answer = fem_reference::solve(scene, options);
   const Judgement judged = judge(answer, truth, length_mm, [&] { return answer; });
   return {seed, loads_of(scene), "fem in small steps", name(judged.verdict), judged.error, judged.estimate};
 }

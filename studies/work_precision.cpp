@@ -10,6 +10,8 @@
 #include "studies/work_precision_competitors.h"
 #include "studies/work_precision_data.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,7 +27,7 @@ std::vector<WorkGroup> scene_groups() {
   std::vector<WorkGroup> groups;
   for (const std::string frame : {"follower", "fixed"}) {
     WorkGroup group{"Study I, " + frame + " loads", {}};
-    for (const std::string& load_case : study1_cases()) group.scenes.push_back(load_case + "_" + frame);
+    for (const std::string& load_case : study1_cases()) group.scenes.push_back(fmt::format("{}_{}", load_case, frame));
     groups.push_back(std::move(group));
   }
   groups.push_back({"catheter with gravity", {"study2_gravity_y"}});

@@ -25,7 +25,7 @@ constexpr double pi = std::numbers::pi;
 scene::Equilibrium solved(const scene::Scene& scene, double tolerance_mm) {
   fam::Options options;
   options.tolerance_mm = tolerance_mm;
-  const scene::Equilibrium result = fam::solve(scene, options);
+  scene::Equilibrium result = fam::solve(scene, options);
   EXPECT_TRUE(result.converged()) << scene.title << " " << result.message;
   return result;
 }

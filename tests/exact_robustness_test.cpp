@@ -9,7 +9,6 @@
 #include <random>
 
 using namespace exact_test;
-using exact_reference::Options;
 
 namespace {
 

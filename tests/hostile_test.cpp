@@ -16,7 +16,7 @@ constexpr double most_s = 10;
 
 Outcome timed(const std::string& command, const std::string& arguments, const std::string& input) {
   const auto start = std::chrono::steady_clock::now();
-  const Outcome outcome = run(command, arguments, input);
+  Outcome outcome = run(command, arguments, input);
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   EXPECT_LT(s, most_s) << arguments;
   return outcome;
@@ -52,7 +52,7 @@ TEST(Hostile, RefusedInOneLine) {
       {good + good, "not JSON"},
       {std::string(1'000'000, '['), "nested too deeply"},
       {R"({"rod":)" + std::string(1'000'000, '{'), "not JSON"},
-      {std::string(65 * 1024 * 1024, ' ') + good, "at most 67108864 bytes"},
+      {std::string(65ul * 1024 * 1024, ' ') + good, "at most 67108864 bytes"},
       {scene_text(repeated(rod, 10'001), ""), "at most 10000"},
       {scene_text(rod, repeated(tip_force("fixed", "[0,0,0]"), 100'001)), "at most 100000"},
       {scene_text(section("1e400", "750", "500"), ""), "finite"},

@@ -28,7 +28,7 @@ T fact(const scene::Equilibrium& result, const std::string& key) {
 scene::Equilibrium solved(const scene::Scene& scene, double tolerance_mm = 1e-4) {
   fam::Options options;
   options.tolerance_mm = tolerance_mm;
-  const scene::Equilibrium result = fam::solve(scene, options);
+  scene::Equilibrium result = fam::solve(scene, options);
   EXPECT_TRUE(result.converged()) << result.message;
   return result;
 }
