@@ -402,27 +402,33 @@ bool BasicBoundaryValue<D>::solve_at_once() {
   return newton(newton_tolerance_);
 }
 
-// At the solution for the current load.
+// At the solution for the current load; exact, or from the derivatives that Newton's method ended with.
 template <int D>
-typename BasicBoundaryValue<D>::Orientation BasicBoundaryValue<D>::orientation() {
+typename BasicBoundaryValue<D>::Orientation BasicBoundaryValue<D>::orientation(bool exact) {
   if (segments_.size() > 1) return {factor_, system_.log_determinant(), system_.determinant_is_negative()};
   SegmentEquations equations;
-  evaluate_segment<turns>(0, equations);
-  const double determinant = equations.arrival.template topLeftCorner<turns, turns>().determinant();
+  if (exact) evaluate_segment<turns>(0, equations);
+  const double determinant =
+      (exact ? equations.arrival.template topLeftCorner<turns, turns>().eval() : slope_).determinant();
   return {factor_, std::log(std::abs(determinant)), determinant < 0};
+}
+
+// The determinant to which the last two point, in units of the last.
+template <int D>
+double BasicBoundaryValue<D>::expected_determinant(const BranchWatch& watch) const {
+  if (load_steps_ < 2 || watch.before.negative != watch.last.negative) return 1;
+  const double ahead = (factor_ - watch.last.factor) / (watch.last.factor - watch.before.factor);
+  return 1 - ahead * std::expm1(watch.before.log_size - watch.last.log_size);
 }
 
 // The determinant has changed its sign since the last load; or it was going to, but has turned back: the rod has left
 // for one of the two branches that part where it vanishes, which rise twice as fast as the old one falls.
 template <int D>
-bool BasicBoundaryValue<D>::on_another_branch(const Orientation& now, const Orientation& last,
-                                              const Orientation& before) const {
+bool BasicBoundaryValue<D>::on_another_branch(const Orientation& now, const BranchWatch& watch) const {
   if (load_steps_ == 0) return false;
-  if (now.negative != last.negative) return true;
-  if (load_steps_ == 1 || before.negative != last.negative) return false;
-  const double ahead = (now.factor - last.factor) / (last.factor - before.factor);
-  const double expected = 1 - ahead * std::expm1(before.log_size - last.log_size);  // in units of the last
-  return expected < 0 && std::exp(now.log_size - last.log_size) > -expected;
+  if (now.negative != watch.last.negative) return true;
+  const double expected = expected_determinant(watch);
+  return expected < 0 && std::exp(now.log_size - watch.last.log_size) > -expected;
 }
 
 // One load step, taken or undone. Returns the surprise, the largest rotation that was not predicted, in units of what
@@ -458,10 +464,13 @@ std::optional<double> BasicBoundaryValue<D>::try_step(double to, BranchWatch& wa
 // Judges the solution that a step of this length has led to, and remembers it if it is on the branch.
 template <int D>
 bool BasicBoundaryValue<D>::stays_on_branch(double step, BranchWatch& watch) {
-  const Orientation now = orientation();
+  Orientation now = orientation(false);
+  // Secants mend the derivatives of one segment well enough as long as the determinant is far from zero.
+  const double size = (now.negative == watch.last.negative ? 1 : -1) * std::exp(now.log_size - watch.last.log_size);
+  if (load_steps_ > 0 && !(std::min(size, expected_determinant(watch)) > 0.5)) now = orientation(true);
   const bool falls = watch.stability && stable() == false;
   const bool may_cross = watch.symmetric && step <= smallest_bifurcation_step;
-  if (!may_cross && (falls || on_another_branch(now, watch.last, watch.before))) return false;
+  if (!may_cross && (falls || on_another_branch(now, watch))) return false;
   watch.stability = watch.stability && !falls;
   watch.before = watch.last;
   watch.last = now;

@@ -129,8 +129,9 @@ class BasicBoundaryValue {
   void start_unloaded();
   std::vector<State<double>> predict(double factor) const;
   bool newton(double tolerance);
-  Orientation orientation();
-  bool on_another_branch(const Orientation& now, const Orientation& last, const Orientation& before) const;
+  Orientation orientation(bool exact);
+  double expected_determinant(const BranchWatch& watch) const;
+  bool on_another_branch(const Orientation& now, const BranchWatch& watch) const;
   bool newton_one_segment(bool fresh_slope, double tolerance);
   bool solve_at_once();
   bool newton_segments(double tolerance);
