@@ -5,6 +5,7 @@
 #include "scene/scene_file.h"
 #include "studies/rk4_method.h"
 #include "studies/verdict.h"
+#include "support.h"
 
 #include <gtest/gtest.h>
 
@@ -71,6 +72,7 @@ std::vector<Case> cases() {
           {"random_78738", "fam automatic", true, automatic},
           {"random_99989", "fam automatic", true, automatic},
           {"random_947", "50 quadratic elements", true, elements(2, 50)},
+          {"random_18219", "50 quadratic elements", false, elements(2, 50)},  // passes a fork
           {"rk4_shooting", "rk4 shooting, 16 steps", false, [](const Scene& scene, int refinement) {
              return studies::rk4_method({16 * refinement, true})->solve(scene);
            }}};
@@ -103,8 +105,10 @@ TEST(Stability, TheExactReferenceHoldsOnThem) {
   }
 }
 
-// It jumped to another branch in these once. Small load steps of the finite elements stay on the first one.
+// It jumped to another branch in these once. Small load steps of the finite elements stay on the first one: 7e-8 and
+// 2e-6 L apart. The twin: a rod that is 5 % stiffer.
 TEST(Stability, TheExactReferenceDoesNotJump) {
+  constexpr double limit = 1e-5;
   fem_reference::Options small_steps;
   small_steps.elements = 50;
   small_steps.estimate_error = false;
@@ -114,12 +118,14 @@ TEST(Stability, TheExactReferenceDoesNotJump) {
   for (const std::string name : {"random_58075", "random_67038"}) {
     SCOPED_TRACE(name);
     const Scene scene = scene_named(name);
-    const Equilibrium exact = exact_reference::solve(scene, {exact_reference::RodModel::reissner, 1e-10});
     const Equilibrium other = fem_reference::solve(scene, small_steps);
-    ASSERT_TRUE(exact.converged() && other.converged()) << exact.message << other.message;
-    const double apart = (exact.tip().position_B_mm - other.tip().position_B_mm).norm() / scene::length_mm(scene);
-    std::printf("%s: %.1e L apart\n", name.c_str(), apart);
-    EXPECT_LT(apart, 1e-2);
+    const auto apart = [&](const Scene& rod) {
+      const Equilibrium exact = exact_reference::solve(rod, {exact_reference::RodModel::reissner, 1e-10});
+      EXPECT_TRUE(exact.converged() && other.converged()) << exact.message << other.message;
+      return (exact.tip().position_B_mm - other.tip().position_B_mm).norm() / scene::length_mm(scene);
+    };
+    EXPECT_LT(apart(scene), limit);
+    EXPECT_GT(apart(support::stiffer(scene)), limit);
   }
 }
 
