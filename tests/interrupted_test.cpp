@@ -41,32 +41,50 @@ const std::map<std::string, std::string>& whole() {
   return files;
 }
 
+// Of a folder that another process writes to: nothing is opened, and what vanishes meanwhile is no error.
+std::size_t count_of_files(const fs::path& folder) {
+  std::size_t count = 0;
+  std::error_code error;
+  for (fs::recursive_directory_iterator file(folder, error); file != fs::end(file); file.increment(error)) {
+    if (file->path().has_extension() && file->path().extension() != ".partial") ++count;
+  }
+  return count;
+}
+
+// Starts the study and kills it as soon as it has left so many files (0: at once), or has ended.
+void kill_after(std::size_t files, const fs::path& folder) {
+  const pid_t child = fork();
+  if (child == 0) {
+    std::freopen("/dev/null", "w", stderr);
+    execl(fam_studies.c_str(), "fam-studies", "study2", "--quick", "--output", folder.c_str(), nullptr);
+    _exit(127);
+  }
+  int status = 0;
+  while (waitpid(child, &status, WNOHANG) == 0) {
+    if (count_of_files(folder) >= files) kill(child, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
+}
+
 TEST(Interrupted, AKilledStudyLeavesWholeFilesOnly) {
   ASSERT_GT(whole().size(), 3u);
   const fs::path folder = scratch() / "killed";
   int found = 0;
-  for (int ms = 100; ms <= 1300; ms += 200) {
-    const pid_t child = fork();
-    if (child == 0) {
-      std::freopen("/dev/null", "w", stderr);
-      execl(fam_studies.c_str(), "fam-studies", "study2", "--quick", "--output", folder.c_str(), nullptr);
-      _exit(127);
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(ms));
-    kill(child, SIGKILL);
-    int status = 0;
-    waitpid(child, &status, 0);
+  for (std::size_t files = 0; files < whole().size(); ++files) {
+    fs::remove_all(folder);
+    kill_after(files, folder);
     for (const auto& [name, text] : files_in(folder)) {
       if (fs::path(name).extension() == ".partial") continue;
       ASSERT_EQ(whole().count(name), 1u) << name;
       EXPECT_EQ(text.back(), '\n') << name;
       if (is_compared(name)) {
-        EXPECT_EQ(text, whole().at(name)) << name << " after " << ms << " ms";
+        EXPECT_EQ(text, whole().at(name)) << name << ", killed after " << files << " files";
       }
       ++found;
     }
   }
   EXPECT_GT(found, 0);
+  fs::create_directories(folder / "study2");
   // What was left behind does not disturb the next run, which clears it.
   std::ofstream(folder / "study2" / "errors.csv.partial") << "half a li";
   EXPECT_EQ(run(fam_studies, study + folder.string()).exit_status, 0);
