@@ -1,4 +1,4 @@
-// Input that means harm, and scenes that are valid and extreme: each ends within seconds, in a status or in one line.
+// Input that means harm, and scenes that are valid and extreme: each ends, in a status or in one line.
 #include "commands.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 using namespace commands;
 using nlohmann::json;
 
-constexpr double most_s = 10;
+constexpr double most_s = 60;  // a hang; the slowest takes 4 s on an idle core
 
 Outcome timed(const std::string& command, const std::string& arguments, const std::string& input) {
   const auto start = std::chrono::steady_clock::now();
