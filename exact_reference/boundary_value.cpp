@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace exact_reference {
 namespace {
@@ -20,7 +21,7 @@ constexpr double first_turn_rad = 0.1;
 constexpr int most_load_steps = 3000;
 constexpr double most_work =
     500'000;  // intervals, summed over Newton's iterations: seconds; all our scenes need 26 000
-constexpr double smallest_step = 1e-6;  // of the load reached or of the first step, whichever is larger
+constexpr double smallest_step = 1e-8;  // of the load reached or of the first step, whichever is larger
 
 // Largest rotation between two sets of node states; a small quaternion change is half a rotation.
 template <class States>
@@ -39,6 +40,7 @@ struct Path {
   std::size_t fewest_intervals = shooting.mesh().size();
   double work = 0;
   bool watch_stability = false;  // conservative, and stable so far
+  scene::Symmetry symmetry = scene::Symmetry::none;
   Determinant determinant = {};  // of the equations' derivatives at y
   double last_load = 0;          // one step before
   Determinant last_determinant = {};
@@ -54,20 +56,33 @@ struct Path {
 };
 
 // Beside a buckling or turning point the branches lie too close to be told apart by their distance: a step whose
-// determinant tells of another branch is refused, too, and with loads that have an energy one from a stable to an
-// unstable equilibrium, unless it is as short as this. Only a rod that its symmetry holds on the unstable branch gets
-// past it (a column loaded exactly on its axis).
+// determinant changes its sign is refused, too, and with loads that have an energy one from a stable to an unstable
+// equilibrium. Only a rod that its symmetry holds on the unstable branch gets past it, by steps as short as this: a
+// column loaded exactly on its axis, where no determinant is watched, or a rod bent in a plane, where that of motions
+// out of it is not.
 constexpr double smallest_bifurcation_step = 1e-5;
 
-// The determinant that Newton's iteration ended with has another sign than that at the load before; or it was going to
-// have, but has turned back: where it vanishes two branches part, on which it rises twice as fast as it fell.
-bool on_another_branch(const Path& path, double step) {
-  const Determinant now = path.shooting.determinant();
-  if (now.negative != path.determinant.negative) return true;
-  if (path.steps == 0 || path.last_determinant.negative != now.negative) return false;
-  const double fall = std::expm1(path.last_determinant.log_size - path.determinant.log_size);
-  const double expected = 1 - step / (path.load - path.last_load) * fall;  // in units of that at the load before
-  return expected < 0 && std::exp(now.log_size - path.determinant.log_size) > -expected;
+bool watches_determinant(const Path& path) {
+  return path.symmetry != scene::Symmetry::axis;
+}
+
+// The longest step that the determinant allows: not on to where it vanishes by the line through the last two, for
+// beyond it the sign may be the old one again, where two branches part or two roots lie together.
+double longest_step(const Path& path) {
+  if (!watches_determinant(path)) return HUGE_VAL;
+  const double fall =
+      std::expm1(path.last_determinant.log_size - path.determinant.log_size) / (path.load - path.last_load);
+  return fall > 0 ? 0.8 / fall : HUGE_VAL;
+}
+
+// The determinant a little before the first load, so that the first step has two to go by.
+void look_back(Path& path) {
+  constexpr double little = 1e-4;
+  NodeStates y = path.y;
+  path.newton(y, -little, 1e-8, 8);
+  path.last_load = -little;
+  path.last_determinant = path.shooting.determinant(y, -little);
+  path.determinant = path.shooting.determinant(path.y, 0);
 }
 
 // Predicts, corrects, judges one step from the state that the tangent belongs to; leaves the path as it was if it is
@@ -81,12 +96,16 @@ double try_step(Path& path, const std::vector<Core>& tangent, double step) {
   const double miss = largest_turn(corrected, predicted);
   const bool jumped = !(miss <= largest_miss_rad) || !(largest_turn(corrected, path.y) <= largest_turn_rad);
   if (!newton.converged || jumped) return HUGE_VAL;
-  if (step > smallest_bifurcation_step && on_another_branch(path, step)) return HUGE_VAL;
+  Determinant determinant;
+  if (watches_determinant(path)) determinant = path.shooting.determinant(corrected, path.load + step);
+  if (determinant.negative != path.determinant.negative) return HUGE_VAL;
   if (path.watch_stability && falling_directions(path.shooting, corrected, path.load + step).value_or(0) > 0) {
-    if (step > smallest_bifurcation_step) return HUGE_VAL;
+    if (path.symmetry == scene::Symmetry::none || step > smallest_bifurcation_step) return HUGE_VAL;
     path.watch_stability = false;
   }
   path.y = std::move(corrected);
+  path.last_load = path.load;
+  path.last_determinant = std::exchange(path.determinant, determinant);
   return miss;
 }
 
@@ -105,22 +124,21 @@ bool adapt(Path& path, double local_error, double newton_tolerance) {
 bool follow_load(Path& path) {
   double first_step = 0;
   double step = 1;
+  if (watches_determinant(path)) look_back(path);
   while (path.load < 1) {
     const std::vector<Core> tangent = path.shooting.tangent(path.y, path.load);
-    path.determinant = path.shooting.determinant();
     if (first_step == 0) {
       double slope = 0;
       for (const Core& t : tangent) slope = std::max(slope, 2 * t.head<4>().norm());
       step = first_step = std::min(1.0, first_turn_rad / std::max(slope, first_turn_rad));
     }
+    step = std::min(step, longest_step(path));
     double miss = HUGE_VAL;
     for (;;) {
       const bool to_the_end = path.load + 1.01 * step >= 1;
       const double trial = to_the_end ? 1 - path.load : step;
       miss = try_step(path, tangent, trial);
       if (miss < HUGE_VAL) {
-        path.last_load = path.load;
-        path.last_determinant = path.determinant;
         path.load = to_the_end ? 1 : path.load + trial;
         step = trial;
         break;
@@ -204,6 +222,7 @@ std::string text(const char* format, double value) {
 scene::Equilibrium solve_boundary_value(const ScaledRod& rod, double tolerance) {
   scene::Equilibrium result;
   Path path{Shooting(rod, initial_intervals), {}};
+  path.symmetry = rod.symmetry;
   path.watch_stability = !rod.has_follower_load() && !rod.has_fixed_moment();
   path.y = path.shooting.unloaded();
   if (!adapt(path, continuation_local_error, 1e-8) || !follow_load(path)) {

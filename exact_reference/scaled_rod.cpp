@@ -52,6 +52,7 @@ ScaledRod scaled_rod(const scene::Scene& scene, RodModel model) {
 
   ScaledRod rod;
   rod.length_mm = length;
+  rod.symmetry = scene::symmetry_of(spans);
   rod.force_unit_N = bending / length / length;
   rod.moment_unit_Nmm = bending / length;
   const auto scaled = [&](const scene::Wrench& wrench) {

@@ -3,7 +3,7 @@
 // size and stiffness look alike to the solvers, and absolute tolerances mean something.
 #pragma once
 
-#include "scene/span.h"
+#include "scene/span_facts.h"
 
 #include <vector>
 
@@ -35,6 +35,7 @@ struct ScaledRod {
   double force_unit_N = 0;     // EI/L^2
   double moment_unit_Nmm = 0;  // EI/L
   std::vector<ScaledSpan> spans;
+  scene::Symmetry symmetry = scene::Symmetry::none;
 
   bool has_fixed_load() const;       // any load with components in the base frame, gravity included
   bool has_fixed_moment() const;     // not conservative in space

@@ -3,16 +3,26 @@
 #include "exact_reference/band_system.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace exact_reference {
 namespace {
 
-// Rows: 4 clamp conditions q = (1,0,0,0); 10 continuity conditions an interval; 6 conditions N = M = 0 beyond the tip's
-// loads. The rows of interval i, 4 + 10 i and on, hold the columns 10 i to 10 i + 19.
 constexpr int clamp_rows = 4;
-constexpr int upper_band = 15;
-constexpr int lower_band = 13;
+
+// The components of a node's core that a system has: all, or those in a plane.
+constexpr std::array all_components{0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+constexpr std::array components_in_xy{0, 3, 4, 5, 9};
+constexpr std::array components_in_xz{0, 2, 4, 6, 8};
+
+// Rows, of m components: clamp conditions q = (1,0,0,0) (c of them: clamp_rows, in a plane half as many); m continuity
+// conditions an interval; m - c conditions N = M = 0 beyond the tip's loads. The rows of interval i, c + m i and on,
+// hold the columns m i to m i + 2 m - 1.
+std::unique_ptr<BandSystem> band_system(std::span<const int> components, std::size_t intervals) {
+  const long m = static_cast<long>(components.size()), c = m == core_size ? clamp_rows : clamp_rows / 2;
+  return std::make_unique<BandSystem>(m * static_cast<long>(intervals + 1), 2 * m - 1 - c, c + m - 1);
+}
 
 }  // namespace
 
@@ -79,14 +89,15 @@ std::vector<Core> Shooting::residual(const NodeStates& y, double load_factor) co
 }
 
 // Matrix and residual, unknowns and equations multiplied by `weight`. The residual goes to the system's vector.
-void Shooting::assemble(const NodeStates& y, double load_factor, const Core& weight) {
-  const long n = static_cast<long>(mesh_.size());
-  if (!band_) band_ = std::make_unique<BandSystem>(core_size * (n + 1), upper_band, lower_band);
-  band_->set_zero();
-  double* r = band_->vector();
-  for (int k = 0; k < clamp_rows; ++k) {
-    band_->entry(k, k) = 1;
-    r[k] = y[0][k] - (k == 0);
+void Shooting::assemble(BandSystem& band, std::span<const int> components, const NodeStates& y, double load_factor,
+                        const Core& weight) const {
+  const long n = static_cast<long>(mesh_.size()), m = static_cast<long>(components.size());
+  band.set_zero();
+  double* r = band.vector();
+  long row = 0;
+  for (; components[row] < 4; ++row) {
+    band.entry(row, row) = 1;
+    r[row] = y[0][components[row]] - (row == 0);
   }
   CoreMatrix sensitivity;
   for (long i = 0; i < n; ++i) {
@@ -96,20 +107,23 @@ void Shooting::assemble(const NodeStates& y, double load_factor, const Core& wei
       sensitivity *= equations(i - 1, load_factor).beyond_point_loads_jacobian(y[i]);
     }
     sensitivity = weight.asDiagonal() * sensitivity * weight.cwiseInverse().asDiagonal();
-    const long row = clamp_rows + core_size * i, column = core_size * i;
-    for (int a = 0; a < core_size; ++a) {
-      for (int b = 0; b < core_size; ++b) band_->entry(row + a, column + b) = sensitivity(a, b);
-      band_->entry(row + a, column + core_size + a) = -1;
-      r[row + a] = weight[a] * (end[a] - y[i + 1][a]);
+    const long column = m * i;
+    for (long a = 0; a < m; ++a, ++row) {
+      const int component = components[a];
+      for (long b = 0; b < m; ++b) band.entry(row, column + b) = sensitivity(component, components[b]);
+      band.entry(row, column + m + a) = -1;
+      r[row] = weight[component] * (end[component] - y[i + 1][component]);
     }
   }
   const RodEquations last = equations(n - 1, load_factor);
   const State beyond = last.beyond_point_loads(y[n]);
   const CoreMatrix loads = last.beyond_point_loads_jacobian(y[n]);
-  const long row = clamp_rows + core_size * n, column = core_size * n;
-  for (int a = 4; a < core_size; ++a) {
-    for (int b = 0; b < core_size; ++b) band_->entry(row + a - 4, column + b) = weight[a] * loads(a, b) / weight[b];
-    r[row + a - 4] = weight[a] * beyond[a];
+  for (const int a : components) {
+    if (a < 4) continue;
+    for (long b = 0; b < m; ++b) {
+      band.entry(row, m * n + b) = weight[a] * loads(a, components[b]) / weight[components[b]];
+    }
+    r[row++] = weight[a] * beyond[a];
   }
 }
 
@@ -120,7 +134,8 @@ Convergence Shooting::newton(NodeStates& y, double load_factor, double tolerance
   for (double last = HUGE_VAL; result.iterations < max_iterations; last = result.last_update) {
     ++result.iterations;
     const Core weight = weights(y);
-    assemble(y, load_factor, weight);
+    if (!band_) band_ = band_system(all_components, mesh_.size());
+    assemble(*band_, all_components, y, load_factor, weight);
     if (!band_->factorise() || !band_->solve()) return result;
     const double* update = band_->vector();
     result.last_update = 0;
@@ -144,7 +159,8 @@ std::vector<Core> Shooting::tangent(const NodeStates& y, double load_factor) {
   constexpr double step = 1e-4;  // the residual is almost linear in the load factor
   const std::vector<Core> above = residual(y, load_factor + step), below = residual(y, load_factor - step);
   const Core weight = weights(y);
-  assemble(y, load_factor, weight);
+  if (!band_) band_ = band_system(all_components, mesh_.size());
+  assemble(*band_, all_components, y, load_factor, weight);
   std::vector<Core> result(y.size(), Core::Zero());
   if (!band_->factorise()) return result;
   double* x = band_->vector();
@@ -161,8 +177,14 @@ std::vector<Core> Shooting::tangent(const NodeStates& y, double load_factor) {
   return result;
 }
 
-Determinant Shooting::determinant() const {
-  return band_->determinant();
+Determinant Shooting::determinant(const NodeStates& y, double load_factor) const {
+  std::span<const int> components = all_components;
+  if (rod_.symmetry == scene::Symmetry::plane_xy) components = components_in_xy;
+  if (rod_.symmetry == scene::Symmetry::plane_xz) components = components_in_xz;
+  const std::unique_ptr<BandSystem> band = band_system(components, mesh_.size());
+  assemble(*band, components, y, load_factor, weights(y));
+  band->factorise();
+  return band->determinant();
 }
 
 double Shooting::local_error(const NodeStates& y, double load_factor, const Core& weight, std::size_t i) const {

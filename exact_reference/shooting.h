@@ -6,6 +6,7 @@
 #include "exact_reference/runge_kutta.h"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace exact_reference {
@@ -59,9 +60,9 @@ class Shooting {
   bool refine(NodeStates& y, double load_factor, double tolerance, int max_intervals);
   void halve(NodeStates& y, double load_factor);
 
-  // Of the matrix that newton() or tangent() factorised last. It does not depend on the mesh; its sign differs from one
-  // branch to the next.
-  Determinant determinant() const;
+  // Of the equations' derivatives, as they act on motions in the plane of the rod's symmetry if there is one. It does
+  // not depend on the mesh; its sign differs from one branch to the next.
+  Determinant determinant(const NodeStates& y, double load_factor) const;
 
   // Sets the positions, which Newton's unknowns do not hold.
   void integrate_positions(NodeStates& y, double load_factor) const;
@@ -74,7 +75,8 @@ class Shooting {
 
  private:
   Core weights(const NodeStates& y) const;  // 1 for q, 1/(1 + largest) for N and M
-  void assemble(const NodeStates& y, double load_factor, const Core& weight);
+  void assemble(BandSystem& band, std::span<const int> components, const NodeStates& y, double load_factor,
+                const Core& weight) const;
   std::vector<Core> residual(const NodeStates& y, double load_factor) const;
   double local_error(const NodeStates& y, double load_factor, const Core& weight, std::size_t i) const;
   void split(NodeStates& y, double load_factor, const std::vector<int>& parts);

@@ -1,7 +1,8 @@
 #include "fam/boundary_value.h"
 
 #include "fam/dual.h"
-#include "fam/scene_facts.h"
+#include "fam/span_stiffness.h"
+#include "scene/span_facts.h"
 
 #include <Eigen/Dense>
 
@@ -114,7 +115,7 @@ void BasicBoundaryValue<D>::cut_into_segments() {
   double force = 0;
   double moment = 0;
   double since_cut = 0;
-  const bool planar = is_planar(spans_);
+  const bool planar = scene::is_planar(spans_);
   int end_arc = arc_count();
   for (std::size_t i = spans_.size(); i-- > 0;) {
     const scene::Span& span = spans_[i];
@@ -413,22 +414,13 @@ typename BasicBoundaryValue<D>::Orientation BasicBoundaryValue<D>::orientation(b
   return {factor_, std::log(std::abs(determinant)), determinant < 0};
 }
 
-// The determinant to which the last two point, in units of the last.
+// Not on to where the determinant vanishes by the line through the last two.
 template <int D>
-double BasicBoundaryValue<D>::expected_determinant(const BranchWatch& watch) const {
-  if (load_steps_ < 2 || watch.before.negative != watch.last.negative) return 1;
-  const double ahead = (factor_ - watch.last.factor) / (watch.last.factor - watch.before.factor);
-  return 1 - ahead * std::expm1(watch.before.log_size - watch.last.log_size);
-}
-
-// The determinant has changed its sign since the last load; or it was going to, but has turned back: the rod has left
-// for one of the two branches that part where it vanishes, which rise twice as fast as the old one falls.
-template <int D>
-bool BasicBoundaryValue<D>::on_another_branch(const Orientation& now, const BranchWatch& watch) const {
-  if (load_steps_ == 0) return false;
-  if (now.negative != watch.last.negative) return true;
-  const double expected = expected_determinant(watch);
-  return expected < 0 && std::exp(now.log_size - watch.last.log_size) > -expected;
+double BasicBoundaryValue<D>::longest_step(const BranchWatch& watch) const {
+  if (!watch.determinant || watch.before.factor == watch.last.factor) return 1;
+  const double fall =
+      std::expm1(watch.before.log_size - watch.last.log_size) / (watch.last.factor - watch.before.factor);
+  return fall > 0 ? 0.8 / fall : 1;
 }
 
 // One load step, taken or undone. Returns the surprise, the largest rotation that was not predicted, in units of what
@@ -465,12 +457,12 @@ std::optional<double> BasicBoundaryValue<D>::try_step(double to, BranchWatch& wa
 template <int D>
 bool BasicBoundaryValue<D>::stays_on_branch(double step, BranchWatch& watch) {
   Orientation now = orientation(false);
-  // Secants mend the derivatives of one segment well enough as long as the determinant is far from zero.
+  // Secants mend the derivatives of one segment well enough as long as the determinant does not fall.
   const double size = (now.negative == watch.last.negative ? 1 : -1) * std::exp(now.log_size - watch.last.log_size);
-  if (load_steps_ > 0 && !(std::min(size, expected_determinant(watch)) > 0.5)) now = orientation(true);
+  if (!(size > 0.8)) now = orientation(true);
+  if (watch.determinant && now.negative != watch.last.negative) return false;
   const bool falls = watch.stability && stable() == false;
-  const bool may_cross = watch.symmetric && step <= smallest_bifurcation_step;
-  if (!may_cross && (falls || on_another_branch(now, watch))) return false;
+  if (falls && !(watch.may_fall && step <= smallest_bifurcation_step)) return false;
   watch.stability = watch.stability && !falls;
   watch.before = watch.last;
   watch.last = now;
@@ -496,16 +488,27 @@ bool BasicBoundaryValue<D>::grow_load() {
   if (one_equilibrium() && solve_at_once()) return true;
   start_unloaded();
   load_steps_ = 0;
-  BranchWatch watch{is_symmetric(spans_), conservative(spans_), {}, {}};
+  if (!newton(newton_tolerance_)) {
+    message_ = "Newton did not converge at no load";
+    return false;
+  }
+  const scene::Symmetry symmetry = scene::symmetry_of(spans_);
+  BranchWatch watch{symmetry != scene::Symmetry::axis,
+                    scene::is_conservative(spans_),
+                    symmetry != scene::Symmetry::none,
+                    orientation(false),
+                    {}};
+  watch.before = watch.last;
   double step = std::min(1.0, std::max(0.02, 1 / (total_growth_ * total_growth_ + total_turn_rad_)));
   while (factor_ < 1) {
+    step = std::min(step, longest_step(watch));
+    if (gives_up(step)) return false;
     const double from = factor_;
     const double to = 1 - from <= 1.001 * step ? 1 : from + step;
     if (const std::optional<double> surprise = try_step(to, watch)) {
       step *= *surprise < 0.25 ? 2 : 1.2;
     } else {
       step = (to - from) / 2;
-      if (gives_up(step)) return false;
     }
   }
   return true;

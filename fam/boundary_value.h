@@ -14,11 +14,12 @@
 // only if Newton converges and no segment end turns by more than largest_turn_rad in it nor lies farther than
 // largest_surprise_rad from where the last two steps pointed. Beside a buckling or turning point the branches lie too
 // close to be told apart by their distance, but the sign of the equations' determinant differs from one to the next: a
-// step that changes it is shortened as well, or one in which it turns back before the zero that it was heading for, and
-// where the loads have an energy one that ends unstable. Only a rod that its symmetry can hold on the unstable branch
-// passes (a column loaded exactly on its axis stays straight), by steps no longer than smallest_bifurcation_step. So
-// the answer is the equilibrium that the rod reaches when its loads grow together from zero; a snap-through ends in
-// load_step_too_small.
+// step that changes it is shortened as well, or one that leads on to where it vanishes by the line through the last two
+// (beyond it the sign may be the old one again, where two branches part or two roots lie together). Where the loads
+// have an energy one that ends unstable is shortened as well, but passes below smallest_bifurcation_step if its
+// symmetry can hold the rod there: in the plane, whose determinant is that of motions in it alone, and on the axis (a
+// column loaded exactly on its axis stays straight), where none is watched. So the answer is the equilibrium that the
+// rod reaches when its loads grow together from zero; a snap-through ends in load_step_too_small.
 #pragma once
 
 #include "fam/band_solver.h"
@@ -38,7 +39,7 @@ constexpr double largest_strain = 0.1;
 constexpr double segment_growth = 1.6;
 constexpr double largest_turn_rad = 0.5;
 constexpr double largest_surprise_rad = 0.05;
-constexpr double smallest_load_step = 1e-6;
+constexpr double smallest_load_step = 1e-8;
 constexpr double smallest_bifurcation_step = 1e-5;
 constexpr int max_newton_steps = 20;
 // Growing the load ends in load_step_too_small after this many arcs marched, or growth_passes times the rod's arcs.
@@ -107,8 +108,9 @@ class BasicBoundaryValue {
     bool negative = false;
   };
   struct BranchWatch {  // what the load steps must keep to
-    bool symmetric;     // the rod may cross to an unstable branch
-    bool stability;     // the loads have an energy, and the rod was stable so far
+    bool determinant;
+    bool stability;  // the loads have an energy, and the rod was stable so far
+    bool may_fall;   // where its symmetry can hold it
     Orientation last, before;
   };
   struct Segment {
@@ -130,8 +132,7 @@ class BasicBoundaryValue {
   std::vector<State<double>> predict(double factor) const;
   bool newton(double tolerance);
   Orientation orientation(bool exact);
-  double expected_determinant(const BranchWatch& watch) const;
-  bool on_another_branch(const Orientation& now, const BranchWatch& watch) const;
+  double longest_step(const BranchWatch& watch) const;
   bool newton_one_segment(bool fresh_slope, double tolerance);
   bool solve_at_once();
   bool newton_segments(double tolerance);

@@ -1,6 +1,6 @@
 #include "fam/model_choice.h"
 
-#include "fam/scene_facts.h"
+#include "fam/span_stiffness.h"
 
 #include <algorithm>
 #include <cmath>

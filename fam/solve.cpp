@@ -2,7 +2,7 @@
 
 #include "fam/model_choice.h"
 #include "fam/reach.h"
-#include "fam/scene_facts.h"
+#include "scene/span_facts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -66,15 +66,16 @@ Choice choose(const std::vector<Span>& spans, const Options& options, double tol
       "; " +
       (options.law == Law::automatic ? "sixth_order: an arc costs no more than a fourth_order one and fewer do"
                                      : "law as asked for") +
-      (all_loads_follow(spans) ? "; march: all loads follow the rod"
-                               : "; boundary value: a load is fixed in space or distributed");
+      (scene::all_loads_follow(spans) ? "; march: all loads follow the rod"
+                                      : "; boundary value: a load is fixed in space or distributed");
   return choice;
 }
 
 template <int D>
 Prepared prepared_in(const std::vector<Span>& spans, const std::vector<int>& arcs, const Choice& choice,
                      const Options& options) {
-  if (all_loads_follow(spans)) return {BasicMarch<D>(spans, arcs, choice.law, choice.rod.model, options.twist_order)};
+  if (scene::all_loads_follow(spans))
+    return {BasicMarch<D>(spans, arcs, choice.law, choice.rod.model, options.twist_order)};
   // Newton ends a thousandth of the tolerance away, or at round-off where none is given.
   const double newton_tolerance =
       std::clamp(1e-3 * options.tolerance_mm / spans.back().end_mm, tightest_newton_tolerance, 1e-6);
@@ -255,7 +256,7 @@ void report(const BasicBoundaryValue<D>& solver, const Task& task, Equilibrium& 
   result.model.emplace_back("segments", solver.segment_count());
   result.model.emplace_back("load_steps", solver.load_steps());
   result.model.emplace_back("newton_iterations", solver.newton_steps());
-  if (conservative(task.spans)) result.stable = solver.one_equilibrium() ? true : solver.stable();
+  if (scene::is_conservative(task.spans)) result.stable = solver.one_equilibrium() ? true : solver.stable();
 }
 template <int D>
 void report(const BasicMarch<D>&, const Task&, Equilibrium&) {}
@@ -273,7 +274,7 @@ Equilibrium success(const Task& task, const Run& run, const std::vector<int>& ar
   });
   result.model = {{"law", std::string(name(task.choice.law))},
                   {"arcs", run.arc_count()},
-                  {"planar", task.choice.plane || is_planar(task.spans)},
+                  {"planar", task.choice.plane || scene::is_planar(task.spans)},
                   {"torsion", torsion},
                   {"shear", task.choice.rod.model == RodModel::reissner},
                   {"solver", std::string(run.marched() ? "march" : "boundary value")},

@@ -58,6 +58,9 @@ BeamModel beam_model(const std::vector<scene::Span>& spans, const std::vector<in
                      const ReferenceElement& reference, bool kirchhoff) {
   BeamModel model;
   model.reference = reference;
+  model.conservative = scene::is_conservative(spans);
+  model.all_loads_follow = scene::all_loads_follow(spans);
+  model.symmetry = scene::symmetry_of(spans);
   model.length_unit_mm = spans.back().end_mm;
   double bending_Nmm2 = 0;
   for (const scene::Span& span : spans) bending_Nmm2 = std::max(bending_Nmm2, span.stiffness.bending_Nmm2.maxCoeff());

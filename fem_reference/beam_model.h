@@ -7,6 +7,7 @@
 #include "fem_reference/reference_element.h"
 #include "fem_reference/rotation.h"
 #include "scene/span.h"
+#include "scene/span_facts.h"
 
 #include <vector>
 
@@ -37,6 +38,9 @@ struct BeamModel {
   ReferenceElement reference;
   std::vector<ElementData> elements;  // clamp to tip
   std::vector<NodalLoad> loads;
+  bool conservative = false;      // these as in scene/span_facts.h
+  bool all_loads_follow = false;  // then there is one equilibrium
+  scene::Symmetry symmetry = scene::Symmetry::none;
 
   double moment_unit_Nmm() const { return force_unit_N * length_unit_mm; }
   int nodes() const { return static_cast<int>(elements.size()) * reference.order() + 1; }

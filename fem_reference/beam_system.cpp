@@ -16,6 +16,8 @@
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <Eigen/SparseLU>
+
 #include <algorithm>
 #include <cmath>
 
@@ -63,6 +65,7 @@ struct BeamSystem::Implementation {
   explicit Implementation(const BeamModel& beam);
 
   void number_unknowns();
+  void number_watched();
   void make_matrix();
   void add_element(std::size_t e, const BeamState& state, double load_factor);
   void add_loads(const BeamState& state, double load_factor);
@@ -77,6 +80,10 @@ struct BeamSystem::Implementation {
   dealii::SparsityPattern pattern;
   dealii::SparseMatrix<double> tangent;
   dealii::SparseDirectUMFPACK factors;
+  std::vector<int> watched;  // place of each unknown among those of the determinant, or -1
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::SparseMatrix<double> watched_tangent;
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> determinant_factors;
   dealii::Vector<double> residual, solution;
 
   std::vector<std::vector<Index>> element_unknowns;  // in the order of beam_element.h
@@ -118,6 +125,22 @@ void BeamSystem::Implementation::number_unknowns() {
               force_unknowns.begin() + static_cast<std::ptrdiff_t>(3 * points * e));
     element_unknowns.push_back(std::move(ordered));
   }
+}
+
+// All unknowns that are not clamped, but for displacements and forces normal to the plane of symmetry and turns in it.
+void BeamSystem::Implementation::number_watched() {
+  const int normal = model.symmetry == scene::Symmetry::plane_xy   ? 2
+                     : model.symmetry == scene::Symmetry::plane_xz ? 1
+                                                                   : -1;
+  watched.assign(dofs.n_dofs(), -1);
+  int count = 0;
+  const auto number = [&](Index unknown, std::size_t component, bool turn) {
+    const bool in_plane = normal < 0 || (static_cast<int>(component) == normal) == turn;
+    if (in_plane && !clamp.is_constrained(unknown)) watched[unknown] = count++;
+  };
+  for (std::size_t i = 0; i < node_unknowns.size(); ++i) number(node_unknowns[i], i % 3, i % 6 >= 3);
+  for (std::size_t i = 0; i < force_unknowns.size(); ++i) number(force_unknowns[i], i % 3, false);
+  watched_tangent.resize(count, count);
 }
 
 void BeamSystem::Implementation::make_matrix() {
@@ -219,6 +242,20 @@ bool BeamSystem::newton_increment(BeamIncrement& increment) {
     increment.force_S[i] = self.values(self.force_unknowns, 3 * i);
   }
   return true;
+}
+
+std::optional<Determinant> BeamSystem::determinant() {
+  Implementation& self = *implementation_;
+  if (self.watched.empty()) self.number_watched();
+  self.entries.clear();
+  for (const auto& entry : self.tangent) {
+    const int row = self.watched[entry.row()], column = self.watched[entry.column()];
+    if (row >= 0 && column >= 0) self.entries.emplace_back(row, column, entry.value());
+  }
+  self.watched_tangent.setFromTriplets(self.entries.begin(), self.entries.end());
+  self.determinant_factors.compute(self.watched_tangent);
+  if (self.determinant_factors.info() != Eigen::Success) return std::nullopt;
+  return Determinant{self.determinant_factors.logAbsDeterminant(), self.determinant_factors.signDeterminant() < 0};
 }
 
 }  // namespace fem_reference

@@ -4,6 +4,7 @@
 #include "fem_reference/beam_model.h"
 
 #include <memory>
+#include <optional>
 
 namespace fem_reference {
 
@@ -19,6 +20,11 @@ struct Residual {
   bool finite() const;
 };
 
+struct Determinant {
+  double log_size = 0;
+  bool negative = false;
+};
+
 class BeamSystem {
  public:
   explicit BeamSystem(const BeamModel& model);  // keeps a reference to the model
@@ -29,6 +35,10 @@ class BeamSystem {
 
   // Newton increment of the system assembled last, clamped at s = 0. False: the matrix is singular.
   bool newton_increment(BeamIncrement& increment);
+
+  // Of the tangent assembled last, as it acts on motions in the plane of the model's symmetry if there is one. deal.II
+  // does not show that of UMFPACK's factors, so Eigen factorises it once more. Empty: the matrix is singular.
+  std::optional<Determinant> determinant();
 
  private:
   struct Implementation;

@@ -1,5 +1,6 @@
 #include "fem_reference/load_stepping.h"
 
+#include "fem_reference/branch_watch.h"
 #include "fem_reference/stability.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace fem_reference {
 
 namespace {
 
-enum class Outcome { converged, turned_too_far, surprised, lost_stability, stalled, singular, not_finite };
+enum class Outcome { converged, turned_too_far, surprised, lost_stability, left_branch, stalled, singular, not_finite };
 
 const char* reason(Outcome outcome) {
   switch (outcome) {
@@ -19,6 +20,7 @@ const char* reason(Outcome outcome) {
     case Outcome::turned_too_far: return "a node turns too far in one step";
     case Outcome::surprised: return "a node turns far from where the last step pointed";
     case Outcome::lost_stability: return "the equilibrium is unstable";
+    case Outcome::left_branch: return "the tangent's determinant belongs to another branch";
     case Outcome::stalled: return "Newton's iteration does not converge";
     case Outcome::singular: return "the tangent is singular";
     case Outcome::not_finite: return "a value is not finite";
@@ -41,10 +43,9 @@ struct Attempt {
   Residual residual;
 };
 
-// Newton's iteration at one load factor; `state` holds the predictor and then the result. `watched` gives up at the
-// first iterate that is not stable.
-Attempt iterate(BeamSystem& system, const BeamModel& model, const BeamState& start, BeamState& state,
-                double load_factor, bool watched, const SteppingOptions& options) {
+// Newton's iteration at one load factor; `state` holds the predictor and then the result.
+Attempt iterate(BeamSystem& system, const BeamState& start, BeamState& state, double load_factor,
+                const SteppingOptions& options) {
   Attempt attempt;
   BeamIncrement increment;
   bool small_increment = false;
@@ -60,10 +61,6 @@ Attempt iterate(BeamSystem& system, const BeamModel& model, const BeamState& sta
     // Before convergence the bound is wider: an iterate may overshoot and come back.
     if (attempt.rotation_rad > (converged ? 1.0 : 1.5) * options.largest_rotation_rad) {
       attempt.outcome = Outcome::turned_too_far;
-      return attempt;
-    }
-    if (watched && is_stable(model, state, load_factor) == false) {
-      attempt.outcome = Outcome::lost_stability;
       return attempt;
     }
     if (converged || attempt.iterations == options.max_newton_iterations) {
@@ -82,15 +79,17 @@ Attempt iterate(BeamSystem& system, const BeamModel& model, const BeamState& sta
   }
 }
 
-double largest_surprise_rad(const SteppingOptions& options) {
-  return options.largest_rotation_rad / 12;
+// Where a step lands on a branch beside the one it began on, the surprise is as large as the whole motion.
+double largest_surprise_rad(const Attempt& attempt, const SteppingOptions& options) {
+  constexpr double round_off = 1e-8;
+  return std::clamp(0.5 * attempt.rotation_rad, round_off, options.largest_rotation_rad / 12);
 }
 
 // The next step is to turn the rod a little less than is allowed, and is at most twice the last.
 double grown(double step, const Attempt& attempt, const SteppingOptions& options) {
   const double to_limit = 0.8 * options.largest_rotation_rad / std::max(attempt.rotation_rad, 1e-12);
   // The surprise grows like the square of the step.
-  const double to_surprise = std::sqrt(0.5 * largest_surprise_rad(options) / std::max(attempt.surprise_rad, 1e-12));
+  const double to_surprise = std::sqrt(0.5 * largest_surprise_rad(attempt, options) / std::max(attempt.surprise_rad, 1e-12));
   return step * std::clamp(std::min(to_limit, to_surprise), 0.5, 2.0);
 }
 
@@ -121,7 +120,7 @@ class Stepping {
   Stepping(const BeamModel& model, const SteppingOptions& options)
       : model_(model),
         options_(options),
-        conservative_(is_conservative(model)),
+        watches_determinant_(!model.all_loads_follow && model.symmetry != scene::Symmetry::axis),
         system_(model),
         state_(rest_state(model)),
         step_(options.initial_load_step) {
@@ -131,8 +130,14 @@ class Stepping {
   SteppingResult run() {
     // The interpolation of a curved rest shape is not exactly stress-free.
     if (curved_ && !try_step(0)) return failed(scene::Status::not_converged, 0);
+    if (watches_determinant_) start_watch();
     while (load_factor_ < 1) {
       if (tried_ == options_.max_load_steps) return failed(scene::Status::not_converged, step_);
+      step_ = std::min(step_, longest_step());
+      if (step_ < options_.smallest_load_step) {
+        last_.outcome = Outcome::left_branch;
+        return failed(scene::Status::load_step_too_small, step_);
+      }
       // No sliver is left for a last step.
       const double target = load_factor_ + 1.001 * step_ >= 1 ? 1 : load_factor_ + step_;
       const double step = target - load_factor_;
@@ -162,16 +167,16 @@ class Stepping {
     // Secant predictor: the last accepted step goes on.
     if (last_step_ > 0) advance(trial, last_increment_, step / last_step_);
     const BeamState guess = trial;
-    last_ = iterate(system_, model_, state_, trial, target, is_watched(step), options_);
+    last_ = iterate(system_, state_, trial, target, options_);
     result_.newton_iterations += last_.iterations;
     if (last_.outcome != Outcome::converged) return false;
     if (last_step_ > 0) last_.surprise_rad = largest_rotation(guess, trial);
     else if (step > 0 && last_.rotation_rad > 0.5 * options_.largest_rotation_rad) last_.surprise_rad = INFINITY;
-    if (last_.surprise_rad > largest_surprise_rad(options_)) {
+    if (last_.surprise_rad > largest_surprise_rad(last_, options_)) {
       last_.outcome = Outcome::surprised;
       return false;
     }
-    if (conservative_) result_.stable = is_stable(model_, trial, target);
+    if (!stays_on_branch(trial, target)) return false;
     if (step > 0) {
       ++result_.load_steps;
       last_increment_ = difference(state_, trial);
@@ -182,10 +187,38 @@ class Stepping {
     return true;
   }
 
-  // Whether a step may not lose stability: it has it, and can be halved.
-  bool is_watched(double step) const {
-    const double smallest = std::max(options_.smallest_bifurcation_step, 2 * options_.smallest_load_step);
-    return conservative_ && result_.stable != false && step > smallest;
+  // The determinant at no load and a little above, so that the first step has two to go by.
+  void start_watch() {
+    constexpr double little = 1e-4;
+    for (const double load_factor : {0.0, little}) {
+      BeamState trial = state_;
+      last_ = iterate(system_, state_, trial, load_factor, options_);
+      const std::optional<Determinant> determinant = system_.determinant();
+      if (last_.outcome == Outcome::converged && determinant) branch_.keep(load_factor, *determinant);
+    }
+  }
+
+  // Not on to where the determinant vanishes.
+  double longest_step() const { return 0.8 * (branch_.load_of_zero() - load_factor_); }
+
+  // Judges the equilibrium assembled last, and remembers it if it is on the branch.
+  bool stays_on_branch(const BeamState& state, double load_factor) {
+    const std::optional<Determinant> determinant =
+        watches_determinant_ ? system_.determinant() : std::optional<Determinant>(Determinant{});
+    if (!determinant || branch_.has_left(*determinant)) {
+      last_.outcome = determinant ? Outcome::left_branch : Outcome::singular;
+      return false;
+    }
+    const std::optional<bool> stable = model_.conservative ? is_stable(model_, state, load_factor) : std::nullopt;
+    const bool may_fall =
+        model_.symmetry != scene::Symmetry::none && load_factor - load_factor_ <= options_.smallest_bifurcation_step;
+    if (stable == false && result_.stable != false && !may_fall) {
+      last_.outcome = Outcome::lost_stability;
+      return false;
+    }
+    result_.stable = stable;
+    branch_.keep(load_factor, *determinant);
+    return true;
   }
 
   SteppingResult failed(scene::Status status, double step) {
@@ -203,7 +236,7 @@ class Stepping {
 
   const BeamModel& model_;
   const SteppingOptions& options_;
-  const bool conservative_;
+  const bool watches_determinant_;
   BeamSystem system_;
   BeamState state_;
   bool curved_ = false;
@@ -213,6 +246,7 @@ class Stepping {
   Attempt last_;
   BeamIncrement last_increment_;
   double last_step_ = 0;
+  BranchWatch branch_;
   SteppingResult result_;
 };
 

@@ -11,7 +11,7 @@ namespace fem_reference {
 
 struct SteppingOptions {
   double initial_load_step = 0.25;
-  double smallest_load_step = 1e-6;
+  double smallest_load_step = 1e-8;
   int max_load_steps = 100'000;  // accepted and rejected
   int max_newton_iterations = 15;
   double largest_rotation_rad = 0.6;  // of any node in a step
@@ -39,10 +39,12 @@ struct SteppingResult {
 //   no node has turned by more than largest_rotation_rad in the step, half of that in the first one, and
 //   no node lies farther than a twelfth of largest_rotation_rad from where the last step pointed,
 // the last two of which keep Newton from reaching another branch of equilibria, where the residual vanishes as well.
-// Beside a buckling load the branches lie too close for that. So where the loads are conservative, a step from a stable
-// equilibrium to one that is not is halved too, down to smallest_bifurcation_step (or smallest_load_step), where it is
-// accepted: a rod whose symmetry nothing breaks stays on its branch. A jump from one stable branch to another beside it
-// goes unseen.
+// Beside a buckling load the branches lie too close for that. So a step is refused too if the tangent's determinant has
+// changed its sign, and no step goes on to where it vanishes by the line through the last two (branch_watch.h). In a
+// planar scene the determinant is that of motions in the plane, and on the axis none is watched: there a rod whose
+// symmetry nothing breaks stays on its branch. Where the loads are conservative, a step from a stable equilibrium to
+// one that is not is halved as well, in planar scenes and on the axis down to smallest_bifurcation_step, where it is
+// accepted. Loads that all follow the rod leave it one equilibrium, and nothing to watch.
 //
 // An accepted step in which an element turns by pi or more from end to end, beyond what the mesh can show, is the last.
 SteppingResult step_to_full_load(const BeamModel& model, const SteppingOptions& options);

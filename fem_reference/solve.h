@@ -23,7 +23,7 @@ struct Options {
   bool estimate_error = true;  // a second solve, on about half the elements
 
   double initial_load_step = 0.25;    // 0 < . <= 1
-  double smallest_load_step = 1e-6;   // below it the solve gives up
+  double smallest_load_step = 1e-8;   // below it the solve gives up
   int max_load_steps = 100'000;       // accepted and rejected
   int max_newton_iterations = 15;     // in a load step
   double largest_rotation_rad = 0.6;  // of any node in a load step: keeps to the branch that starts at no load

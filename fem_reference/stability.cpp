@@ -62,15 +62,6 @@ std::optional<bool> is_positive(const Block& form, double round_off) {
 
 }  // namespace
 
-bool is_conservative(const BeamModel& model) {
-  const auto dead = [](const NodalLoad& load) {
-    return load.follower_S.is_zero() && load.fixed_B.moment_Nmm.isZero(0);
-  };
-  const auto free_of_followers = [](const ElementData& element) { return element.follower_force_S.isZero(0); };
-  return std::all_of(model.loads.begin(), model.loads.end(), dead) &&
-         std::all_of(model.elements.begin(), model.elements.end(), free_of_followers);
-}
-
 std::optional<bool> is_stable(const BeamModel& model, const BeamState& state, double load_factor) {
   const ReferenceElement& reference = model.reference;
   const Parting parts = parting(reference);

@@ -16,9 +16,6 @@
 
 namespace fem_reference {
 
-// No load but fixed forces, point or distributed, and tendons. Loads that cancel at a place do not count.
-bool is_conservative(const BeamModel& model);
-
 // True: minimum, stable. False: the energy falls in some direction. Empty: neutral within round-off, which is a load
 // within about 5e-15 (L / shortest element)^2 of critical. `state` must be an equilibrium of a conservative model under
 // load_factor times its loads.

@@ -1,4 +1,6 @@
 // The stability of equilibria by the finite element tangent: classical critical loads, each from both sides.
+#include "fem_reference/beam_system.h"
+#include "fem_reference/branch_watch.h"
 #include "fem_reference/load_stepping.h"
 #include "fem_reference/solve.h"
 #include "support.h"
@@ -88,15 +90,6 @@ TEST(FemStability, PushedColumnBuckles) {
   EXPECT_EQ(straight.stable, false);
 }
 
-TEST(FemStability, UnwatchedStepsReachTheUnstableBranch) {  // what PushedColumnBuckles guards against
-  const auto model = fem_reference::beam_model(scene::spans_of(column(1.05, 1e-3)), {50},
-                                               fem_reference::reference_element(2, 2), true);
-  const fem_reference::SteppingResult found = fem_reference::step_to_full_load(model, {.smallest_bifurcation_step = 1});
-  ASSERT_EQ(found.status, scene::Status::converged);
-  EXPECT_LT(found.state.position_B.back().y() * 40, 0);
-  EXPECT_EQ(found.stable, false);
-}
-
 TEST(FemStability, HeavyColumn) {
   const auto heavy = [](double load) {
     const double weight_N_per_mm = load * 7.8373 * 750 / std::pow(40, 3);
@@ -154,6 +147,55 @@ TEST(FemStability, OnlyConservativeLoadsAreDecided) {
   EXPECT_EQ(loaded({dead}), true);
   EXPECT_EQ(loaded({dead, scene::Moment{20, Frame::fixed, {0, 0, 0}}}), true);  // no load
   EXPECT_EQ(loaded({}), true);
+}
+
+// The determinant of a straight column of the stiffnesses EI_y and 4 EI_y, in units of Euler's load about y. It falls
+// to zero there, linearly: at a thousandth of the load from it, it is half of what it is at two thousandths, but for
+// the other factors, smooth in the load.
+TEST(FemStability, TheDeterminantVanishesAtEulersLoad) {
+  const auto determinant = [](double euler_loads) {
+    scene::Stiffness stiffness = slender(750, 500);
+    stiffness.bending_Nmm2[1] = 3000;
+    const double pressed_N = euler_loads * pi * pi * 750 / (4 * 40 * 40);
+    const auto model = fem_reference::beam_model(
+        scene::spans_of(uniform_rod(40, stiffness, {scene::Force{40, Frame::fixed, {-pressed_N, 0, 0}}})), {50},
+        fem_reference::reference_element(2, 2), true);
+    fem_reference::BeamState straight = fem_reference::rest_state(model);
+    for (Vector3d& force_S : straight.force_S) force_S.x() = -pressed_N / model.force_unit_N;
+    fem_reference::BeamSystem system(model);
+    EXPECT_LT(system.assemble(straight, 1).largest(), 1e-12);
+    return system.determinant().value();
+  };
+  const bool stable_sign = determinant(0.998).negative;
+  EXPECT_EQ(determinant(0.999).negative, stable_sign);
+  EXPECT_NE(determinant(1.001).negative, stable_sign);
+  EXPECT_NEAR(std::exp(determinant(0.998).log_size - determinant(0.999).log_size), 2, 0.02);
+}
+
+TEST(FemStability, TheDeterminantIsWatchedForASignAndAZero) {
+  fem_reference::BranchWatch watch;
+  EXPECT_FALSE(watch.has_left({0, true}));
+  EXPECT_EQ(watch.load_of_zero(), HUGE_VAL);
+  watch.keep(0, {std::log(4.0), true});
+  watch.keep(0.5, {std::log(3.0), true});
+  EXPECT_NEAR(watch.load_of_zero(), 2, 1e-12);
+  EXPECT_FALSE(watch.has_left({0, true}));
+  EXPECT_TRUE(watch.has_left({0, false}));
+  watch.keep(1, {std::log(5.0), true});
+  EXPECT_EQ(watch.load_of_zero(), HUGE_VAL);
+}
+
+// No energy decides here: the push follows the tip.
+TEST(FemStability, AColumnPushedByAFollowerBuckles) {
+  const auto pushed = [](double push_N) {
+    scene::Scene scene = column(1.05);
+    scene.loads.push_back(scene::Force{40, Frame::follower, {0, push_N, 0}});
+    return solved(scene);
+  };
+  const scene::Equilibrium found = pushed(1e-3);
+  EXPECT_EQ(found.stable, std::nullopt);
+  EXPECT_GT(found.tip().position_B_mm.y(), 10);
+  EXPECT_NEAR(pushed(-1e-3).tip().position_B_mm.y(), -found.tip().position_B_mm.y(), 1e-8);
 }
 
 }  // namespace

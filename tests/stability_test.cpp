@@ -72,7 +72,7 @@ std::vector<Case> cases() {
           {"random_78738", "fam automatic", true, automatic},
           {"random_99989", "fam automatic", true, automatic},
           {"random_947", "50 quadratic elements", true, elements(2, 50)},
-          {"random_18219", "50 quadratic elements", false, elements(2, 50)},  // passes a fork
+          {"random_18219", "50 quadratic elements", true, elements(2, 50)},
           {"rk4_shooting", "rk4 shooting, 16 steps", false, [](const Scene& scene, int refinement) {
              return studies::rk4_method({16 * refinement, true})->solve(scene);
            }}};
