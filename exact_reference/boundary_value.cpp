@@ -41,6 +41,7 @@ struct Path {
   double work = 0;
   bool watch_stability = false;  // conservative, and stable so far
   scene::Symmetry symmetry = scene::Symmetry::none;
+  double load_size = 0;          // of ScaledRod
   Determinant determinant = {};  // of the equations' derivatives at y
   double last_load = 0;          // one step before
   Determinant last_determinant = {};
@@ -56,10 +57,10 @@ struct Path {
 };
 
 // Beside a buckling or turning point the branches lie too close to be told apart by their distance: a step whose
-// determinant changes its sign is refused, too, and with loads that have an energy one from a stable to an unstable
-// equilibrium. Only a rod that its symmetry holds on the unstable branch gets past it, by steps as short as this: a
-// column loaded exactly on its axis, where no determinant is watched, or a rod bent in a plane, where that of motions
-// out of it is not.
+// determinant changes its sign is refused, too. It is that of motions which the rod's symmetry allows: a column loaded
+// exactly on its axis stays on it, where none is watched, and a rod bent in a plane passes where it would leave it
+// sideways. With loads that have an energy a step from a stable to an unstable equilibrium is refused as well, unless
+// it is as short as this.
 constexpr double smallest_bifurcation_step = 1e-5;
 
 bool watches_determinant(const Path& path) {
@@ -100,7 +101,7 @@ double try_step(Path& path, const std::vector<Core>& tangent, double step) {
   if (watches_determinant(path)) determinant = path.shooting.determinant(corrected, path.load + step);
   if (determinant.negative != path.determinant.negative) return HUGE_VAL;
   if (path.watch_stability && falling_directions(path.shooting, corrected, path.load + step).value_or(0) > 0) {
-    if (path.symmetry == scene::Symmetry::none || step > smallest_bifurcation_step) return HUGE_VAL;
+    if (step > smallest_bifurcation_step) return HUGE_VAL;
     path.watch_stability = false;
   }
   path.y = std::move(corrected);
@@ -130,7 +131,7 @@ bool follow_load(Path& path) {
     if (first_step == 0) {
       double slope = 0;
       for (const Core& t : tangent) slope = std::max(slope, 2 * t.head<4>().norm());
-      step = first_step = std::min(1.0, first_turn_rad / std::max(slope, first_turn_rad));
+      step = first_step = std::min(1 / std::max(path.load_size, 1.0), first_turn_rad / std::max(slope, first_turn_rad));
     }
     step = std::min(step, longest_step(path));
     double miss = HUGE_VAL;
@@ -223,6 +224,7 @@ scene::Equilibrium solve_boundary_value(const ScaledRod& rod, double tolerance) 
   scene::Equilibrium result;
   Path path{Shooting(rod, initial_intervals), {}};
   path.symmetry = rod.symmetry;
+  path.load_size = rod.load_size();
   path.watch_stability = !rod.has_follower_load() && !rod.has_fixed_moment();
   path.y = path.shooting.unloaded();
   if (!adapt(path, continuation_local_error, 1e-8) || !follow_load(path)) {

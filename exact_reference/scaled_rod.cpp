@@ -23,6 +23,18 @@ Vector3d shear_compliance_per_N(const scene::Stiffness& stiffness, RodModel mode
 
 }  // namespace
 
+double ScaledRod::load_size() const {
+  double size = 0, compliance = 0;
+  for (const ScaledSpan& span : spans) {
+    for (const scene::Wrench* load : {&span.follower_load_S, &span.fixed_load_B}) {
+      size += load->force_N.norm() + load->moment_Nmm.norm();
+    }
+    size += span.length() * (span.follower_density_S.norm() + span.fixed_density_B.norm());
+    compliance = std::max(compliance, span.bending_compliance.maxCoeff());
+  }
+  return size * compliance;
+}
+
 bool ScaledRod::has_fixed_load() const {
   return std::any_of(spans.begin(), spans.end(), [](const ScaledSpan& span) {
     return !span.fixed_load_B.is_zero() || !span.fixed_density_B.isZero(0);

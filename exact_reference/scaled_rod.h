@@ -37,6 +37,8 @@ struct ScaledRod {
   std::vector<ScaledSpan> spans;
   scene::Symmetry symmetry = scene::Symmetry::none;
 
+  // Sum of all loads but the tendons', times the largest compliance: below 1 nothing buckles.
+  double load_size() const;
   bool has_fixed_load() const;       // any load with components in the base frame, gravity included
   bool has_fixed_moment() const;     // not conservative in space
   bool has_follower_load() const;    // not conservative

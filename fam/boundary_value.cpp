@@ -499,7 +499,7 @@ bool BasicBoundaryValue<D>::grow_load() {
                     orientation(false),
                     {}};
   watch.before = watch.last;
-  double step = std::min(1.0, std::max(0.02, 1 / (total_growth_ * total_growth_ + total_turn_rad_)));
+  double step = 1 / std::max(1.0, total_growth_ * total_growth_ + total_turn_rad_);
   while (factor_ < 1) {
     step = std::min(step, longest_step(watch));
     if (gives_up(step)) return false;

@@ -89,7 +89,8 @@ double largest_surprise_rad(const Attempt& attempt, const SteppingOptions& optio
 double grown(double step, const Attempt& attempt, const SteppingOptions& options) {
   const double to_limit = 0.8 * options.largest_rotation_rad / std::max(attempt.rotation_rad, 1e-12);
   // The surprise grows like the square of the step.
-  const double to_surprise = std::sqrt(0.5 * largest_surprise_rad(attempt, options) / std::max(attempt.surprise_rad, 1e-12));
+  const double to_surprise =
+      std::sqrt(0.5 * largest_surprise_rad(attempt, options) / std::max(attempt.surprise_rad, 1e-12));
   return step * std::clamp(std::min(to_limit, to_surprise), 0.5, 2.0);
 }
 
@@ -113,6 +114,21 @@ std::optional<std::size_t> turned_over(const BeamModel& model, const BeamState& 
     if (state.rotation_BS[e * order].dot(state.rotation_BS[(e + 1) * order]) <= 0) return e;
   }
   return std::nullopt;
+}
+
+// Sum of all loads but the tendons', times the largest compliance.
+double load_size(const BeamModel& model) {
+  double size = 0, compliance = 0;
+  for (const NodalLoad& load : model.loads) {
+    for (const scene::Wrench* wrench : {&load.follower_S, &load.fixed_B}) {
+      size += wrench->force_N.norm() + wrench->moment_Nmm.norm();
+    }
+  }
+  for (const ElementData& element : model.elements) {
+    size += element.length * (element.follower_force_S.norm() + element.fixed_force_B.norm());
+    compliance = std::max(compliance, 1 / element.moment_stiffness.minCoeff());
+  }
+  return size * compliance;
 }
 
 class Stepping {
@@ -172,7 +188,9 @@ class Stepping {
     if (last_.outcome != Outcome::converged) return false;
     if (last_step_ > 0) last_.surprise_rad = largest_rotation(guess, trial);
     else if (step > 0 && last_.rotation_rad > 0.5 * options_.largest_rotation_rad) last_.surprise_rad = INFINITY;
-    if (last_.surprise_rad > largest_surprise_rad(last_, options_)) {
+    // The last step may point too much astray for any but a short one, after which the next has a better guess.
+    const bool is_short = step < last_step_ / 16;
+    if (last_.surprise_rad > (is_short ? options_.largest_rotation_rad / 12 : largest_surprise_rad(last_, options_))) {
       last_.outcome = Outcome::surprised;
       return false;
     }
@@ -187,8 +205,10 @@ class Stepping {
     return true;
   }
 
-  // The determinant at no load and a little above, so that the first step has two to go by.
+  // The first step is below all that could buckle the rod, and has two determinants to go by: at no load and a little
+  // above.
   void start_watch() {
+    step_ = std::min(step_, 1 / std::max(load_size(model_), 1.0));
     constexpr double little = 1e-4;
     for (const double load_factor : {0.0, little}) {
       BeamState trial = state_;

@@ -1,7 +1,7 @@
 // random_scenes: runs the random scenes in blocks of 1000 seeds, each block's outcomes in a file of its own, so that a
 // run resumes where it was stopped and several processes share one folder.
 //   random_scenes scene SEED            one scene as a file on standard output
-//   random_scenes run FROM TO FOLDER    FROM and TO multiples of the block; every 500th scene by finite elements too
+//   random_scenes run FROM TO FOLDER    FROM and TO multiples of the block; every 100th scene by finite elements too
 //   random_scenes second FOLDER         a second opinion on every scene in which FAM is wrong and silent
 //   random_scenes sum FOLDER OUTPUT     counts.csv, failures.csv and README.md from the blocks
 //   random_scenes promise TO OUTPUT     seeds 0..TO-1: is the tolerance kept (promise.h)?
@@ -32,7 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 using studies::RandomOutcome;
 
-constexpr std::uint64_t block = 1000, finite_elements_every = 500;
+constexpr std::uint64_t block = 1000, finite_elements_every = 100;
 constexpr unsigned work_limit_s = 5;  // of processor time for one scene
 
 std::vector<RandomOutcome> read_outcomes(const fs::path& path) {

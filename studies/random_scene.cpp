@@ -22,6 +22,30 @@ class Drawing {
     for (int i = 0; i < 8; ++i) engine_();  // neighbouring seeds part
   }
 
+  scene::Scene buckling() {
+    length_mm_ = log_uniform(1, 1e3);
+    const double bending_Nmm2 = log_uniform(1, 1e6);
+    force_unit_N_ = bending_Nmm2 / (length_mm_ * length_mm_);
+    const bool strip = chance(0.25);
+    const double ratio = strip ? log_uniform(3, 1e4) : chance(0.5) ? 1 : log_uniform(0.1, 10);
+    const double torsion = chance(0.7) ? uniform(0.3, 1) : log_uniform(0.01, 10);
+    scene::Stiffness stiffness;
+    stiffness.bending_Nmm2 = bending_Nmm2 * Vector2d(ratio, 1);
+    stiffness.torsion_Nmm2 = bending_Nmm2 * torsion;
+    scene_.sections.push_back({length_mm_, stiffness, Vector3d::Zero()});
+    if (strip) {  // Prandtl's and Michell's load
+      const double critical = 4.0126 * std::sqrt(torsion);
+      add_tip_force(scene::Frame::fixed, critical * log_uniform(0.5, 5) * Vector3d::UnitZ());
+    } else {  // Euler's load
+      const double critical = std::min(1.0, ratio) * std::pow(std::numbers::pi / 2, 2);
+      add_tip_force(chance(0.75) ? scene::Frame::fixed : scene::Frame::follower,
+                    -critical * log_uniform(0.5, 50) * Vector3d::UnitX());
+    }
+    if (chance(0.3)) add_tip_moment(frame(), sign() * log_uniform(0.01, 5) * Vector3d::UnitX());
+    draw_disturbances();
+    return std::move(scene_);
+  }
+
   scene::Scene scene() {
     planar_ = chance(0.25);
     follower_only_ = chance(1.0 / 3);
@@ -58,6 +82,28 @@ class Drawing {
   }
   Vector3d axis() { return planar_ ? Vector3d(sign() * Vector3d::UnitZ()) : direction(); }
   scene::Frame frame() { return follower_only_ || chance(0.4) ? scene::Frame::follower : scene::Frame::fixed; }
+
+  // In units of EI/L^2 and EI/L.
+  void add_tip_force(scene::Frame frame, const Vector3d& force) {
+    scene_.loads.push_back(scene::Force{length_mm_, frame, force_unit_N_ * force});
+  }
+  void add_tip_moment(scene::Frame frame, const Vector3d& moment) {
+    scene_.loads.push_back(scene::Moment{length_mm_, frame, force_unit_N_ * length_mm_ * moment});
+  }
+
+  // Straight aside, in a plane or anyhow; planar scenes among them.
+  void draw_disturbances() {
+    const int count = integer(1, 3);
+    const bool one_axis = chance(0.5);
+    const int axis = integer(1, 2);
+    for (int i = 0; i < count; ++i) {
+      const double size = sign() * log_uniform(1e-7, 0.1);
+      const bool moment = chance(0.4);
+      const Vector3d aside = one_axis ? Vector3d(Vector3d::Unit(moment ? 3 - axis : axis)) : direction();
+      if (moment) add_tip_moment(frame(), size * aside);
+      else add_tip_force(frame(), size * aside);
+    }
+  }
 
   void draw_sections() {
     const int count = chance(0.4) ? 1 : integer(2, std::max(2, limits_.sections_max));
@@ -173,7 +219,8 @@ class Drawing {
 }  // namespace
 
 scene::Scene random_scene(std::uint64_t seed, const RandomSceneLimits& limits) {
-  scene::Scene scene = Drawing(seed, limits).scene();
+  Drawing drawing(seed, limits);
+  scene::Scene scene = seed < first_buckling_seed ? drawing.scene() : drawing.buckling();
   scene.title = "random scene " + std::to_string(seed);
   return scene;
 }

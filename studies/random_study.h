@@ -1,6 +1,8 @@
 // Random scenes (random_scene.h) solved by FAM and the exact reference, some by finite elements, each answer judged.
 #pragma once
 
+#include "scene/equilibrium.h"
+#include "scene/scene.h"
 #include "studies/verdict.h"
 
 #include <cstdint>
@@ -17,7 +19,7 @@ constexpr double random_fam_tolerance = 1e-4, random_exact_tolerance = 1e-9;
 // What came of one method on one scene.
 struct RandomOutcome {
   std::uint64_t seed = 0;
-  std::string loads;               // "follower", "dead" (these have an energy), "mixed"
+  std::string loads;               // "follower", "dead" (these have an energy), "mixed", "buckling" (random_scene.h)
   std::string method;              // "fam", "fem", "exact"
   std::string outcome;             // of a verdict; "only fam", ...: see random_outcomes()
   double error = 0, estimate = 0;  // over L
@@ -29,8 +31,10 @@ struct RandomOutcome {
 void random_outcomes(std::uint64_t seed, bool with_finite_elements,
                      const std::function<void(const RandomOutcome&)>& report);
 
-// A second opinion on the judge: 100 quadratic finite elements in steps of at most 0.1 rad, method "fem in small
-// steps".
+// By 100 quadratic finite elements in steps of at most 0.1 rad.
+scene::Equilibrium solve_in_small_steps(const scene::Scene& scene);
+
+// A second opinion on the judge, method "fem in small steps".
 RandomOutcome second_opinion(std::uint64_t seed);
 
 // Silent or lost answers, which the results list by seed.

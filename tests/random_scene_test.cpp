@@ -52,4 +52,17 @@ TEST(RandomScene, LimitsHold) {
   }
 }
 
+TEST(RandomScene, RodsThatBuckleAreValid) {
+  int pressed = 0, bent = 0;
+  for (std::uint64_t seed = studies::first_buckling_seed; seed < studies::first_buckling_seed + 1000; ++seed) {
+    const scene::Scene scene = studies::random_scene(seed);
+    ASSERT_NO_THROW(scene::validate(scene)) << "seed " << seed;
+    const Eigen::Vector3d force_N = std::get<scene::Force>(scene.loads.front()).value_N;
+    ++(force_N.x() < 0 ? pressed : bent);
+    EXPECT_GE(scene.loads.size(), 2u);
+  }
+  EXPECT_GT(pressed, 600);
+  EXPECT_GT(bent, 150);
+}
+
 }  // namespace

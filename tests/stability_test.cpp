@@ -3,6 +3,7 @@
 #include "fam/solve.h"
 #include "fem_reference/solve.h"
 #include "scene/scene_file.h"
+#include "studies/random_study.h"
 #include "studies/rk4_method.h"
 #include "studies/verdict.h"
 #include "support.h"
@@ -109,16 +110,10 @@ TEST(Stability, TheExactReferenceHoldsOnThem) {
 // 2e-6 L apart. The twin: a rod that is 5 % stiffer.
 TEST(Stability, TheExactReferenceDoesNotJump) {
   constexpr double limit = 1e-5;
-  fem_reference::Options small_steps;
-  small_steps.elements = 50;
-  small_steps.estimate_error = false;
-  small_steps.initial_load_step = 0.01;
-  small_steps.largest_rotation_rad = 0.1;
-  small_steps.max_load_steps = 3000;
   for (const std::string name : {"random_58075", "random_67038"}) {
     SCOPED_TRACE(name);
     const Scene scene = scene_named(name);
-    const Equilibrium other = fem_reference::solve(scene, small_steps);
+    const Equilibrium other = studies::solve_in_small_steps(scene);
     const auto apart = [&](const Scene& rod) {
       const Equilibrium exact = exact_reference::solve(rod, {exact_reference::RodModel::reissner, 1e-10});
       EXPECT_TRUE(exact.converged() && other.converged()) << exact.message << other.message;
