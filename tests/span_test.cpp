@@ -1,5 +1,5 @@
 // The cutting of a scene into spans.
-#include "scene/span.h"
+#include "scene/span_facts.h"
 
 #include "support.h"
 
@@ -72,6 +72,22 @@ TEST(Span, ThousandsOfLoads) {
   const auto spans = scene::spans_of(support::uniform_rod(50, slender(1, 1), loads));
   ASSERT_EQ(spans.size(), 5000u);
   for (const auto& span : spans) ASSERT_EQ(span.follower_load_S.force_N[1], 1);
+}
+
+TEST(Span, SymmetryOfLoadsAndRestShape) {
+  using scene::Symmetry;
+  const auto symmetry = [](const std::vector<scene::Load>& loads) {
+    return scene::symmetry_of(scene::spans_of(support::uniform_rod(40, slender(1, 1), loads)));
+  };
+  const scene::Load pressed = scene::Force{40, Frame::fixed, {-1, 0, 0}};
+  EXPECT_EQ(symmetry({}), Symmetry::axis);
+  EXPECT_EQ(symmetry({pressed, scene::Moment{20, Frame::follower, {1, 0, 0}}}), Symmetry::axis);
+  EXPECT_EQ(symmetry({pressed, scene::Force{20, Frame::follower, {0, 1, 0}}}), Symmetry::plane_xy);
+  EXPECT_EQ(symmetry({pressed, scene::Moment{20, Frame::fixed, {0, 1, 0}}}), Symmetry::plane_xz);
+  EXPECT_EQ(symmetry({scene::Tendon{{1, 0}, 1, 40}, scene::Moment{20, Frame::fixed, {0, 0, 1}}}), Symmetry::plane_xy);
+  EXPECT_EQ(symmetry({scene::Force{20, Frame::fixed, {0, 1, 0}}, scene::Moment{20, Frame::fixed, {1, 0, 0}}}),
+            Symmetry::none);
+  EXPECT_EQ(symmetry({pressed, scene::DistributedForce{0, 20, Frame::fixed, {0, 1, 1}}}), Symmetry::none);
 }
 
 }  // namespace
