@@ -78,7 +78,7 @@ double longest_step(const Path& path) {
 
 // The determinant a little before the first load, so that the first step has two to go by.
 void look_back(Path& path) {
-  constexpr double little = 1e-4;
+  const double little = 0.01 / std::max(path.load_size, 1.0);
   NodeStates y = path.y;
   path.newton(y, -little, 1e-8, 8);
   path.last_load = -little;

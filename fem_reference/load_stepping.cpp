@@ -209,8 +209,7 @@ class Stepping {
   // above.
   void start_watch() {
     step_ = std::min(step_, 1 / std::max(load_size(model_), 1.0));
-    constexpr double little = 1e-4;
-    for (const double load_factor : {0.0, little}) {
+    for (const double load_factor : {0.0, 0.01 * step_}) {
       BeamState trial = state_;
       last_ = iterate(system_, state_, trial, load_factor, options_);
       const std::optional<Determinant> determinant = system_.determinant();
