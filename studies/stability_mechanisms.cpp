@@ -33,10 +33,9 @@ std::string mechanism(const std::string& map) {
   }
   if (map == "direction") {
     return "Beyond the Euler load a push off the axis by a thousandth of a degree has two mirrored answers and an "
-           "unstable one between them: the finite elements shorten their load step there until the work is used up, "
-           "and "
-           "between 2.46 and 2.48 a mesh errs in the Euler load itself, so that two coarse meshes can agree; at 180° "
-           "exactly every method stays on the straight rod.";
+           "unstable one between them: the load steps shorten there, none passing the zero that the determinant heads "
+           "for; between 2.46 and 2.48 a mesh errs in the Euler load itself, so that two coarse meshes can agree; at "
+           "180° exactly every method stays on the straight rod.";
   }
   if (map == "torque") {
     return "Twist turns the bending plane along an arc: the published law applies bend and twist one after the other, "
