@@ -37,7 +37,8 @@ struct SteppingResult {
 //   largest Newton increment of a node <= tolerance (displacements over L, rotations in rad) and
 //   largest residual <= tolerance F, with F = max(1, largest internal force) in EI / L^2, and
 //   no node has turned by more than largest_rotation_rad in the step, half of that in the first one, and
-//   no node lies farther than a twelfth of largest_rotation_rad from where the last step pointed,
+//   no node lies farther than a twelfth of largest_rotation_rad from where the last step pointed, nor, unless the step
+//   is shorter than a sixteenth of the last, farther than half of what one has turned in it,
 // the last two of which keep Newton from reaching another branch of equilibria, where the residual vanishes as well.
 // Beside a buckling load the branches lie too close for that. So a step is refused too if the tangent's determinant has
 // changed its sign, and no step goes on to where it vanishes by the line through the last two (branch_watch.h). In a
