@@ -246,14 +246,16 @@ bool BeamSystem::newton_increment(BeamIncrement& increment) {
 
 std::optional<Determinant> BeamSystem::determinant() {
   Implementation& self = *implementation_;
-  if (self.watched.empty()) self.number_watched();
+  const bool first = self.watched.empty();
+  if (first) self.number_watched();
   self.entries.clear();
   for (const auto& entry : self.tangent) {
     const int row = self.watched[entry.row()], column = self.watched[entry.column()];
     if (row >= 0 && column >= 0) self.entries.emplace_back(row, column, entry.value());
   }
   self.watched_tangent.setFromTriplets(self.entries.begin(), self.entries.end());
-  self.determinant_factors.compute(self.watched_tangent);
+  if (first) self.determinant_factors.analyzePattern(self.watched_tangent);
+  self.determinant_factors.factorize(self.watched_tangent);
   if (self.determinant_factors.info() != Eigen::Success) return std::nullopt;
   return Determinant{self.determinant_factors.logAbsDeterminant(), self.determinant_factors.signDeterminant() < 0};
 }
