@@ -82,7 +82,7 @@ Attempt iterate(BeamSystem& system, const BeamState& start, BeamState& state, do
 // Where a step lands on a branch beside the one it began on, the surprise is as large as the whole motion.
 double largest_surprise_rad(const Attempt& attempt, const SteppingOptions& options) {
   constexpr double round_off = 1e-8;
-  return std::clamp(0.5 * attempt.rotation_rad, round_off, options.largest_rotation_rad / 12);
+  return std::min(std::max(0.5 * attempt.rotation_rad, round_off), options.largest_rotation_rad / 12);
 }
 
 // The next step is to turn the rod a little less than is allowed, and is at most twice the last.
