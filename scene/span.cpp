@@ -34,7 +34,7 @@ std::vector<double> cuts_of(const Scene& scene, double length) {
   auto next_end = section_ends.begin();
   double last = 0;
   for (const double place : places) {
-    while (next_end + 1 != section_ends.end() && *next_end < place - same_place) ++next_end;
+    while (next_end + 1 != section_ends.end() && place - *next_end > same_place) ++next_end;
     const bool at_end = std::abs(*next_end - place) <= same_place || place > length;
     if (at_end || place - last <= same_place) continue;
     cuts.push_back(place);

@@ -42,6 +42,21 @@ TEST(Span, CutsAtSectionsLoadsAndEndsOnce) {
   EXPECT_TRUE(spans[2].tendon_S.is_zero());
 }
 
+// The last section is 7037 units in the last place of its end long, the same-place distance 7036.9 of them: s - distance
+// rounds to the start of the section, and a load at the tip once cut an empty span.
+TEST(Span, ALoadAtTheEndOfTheShortestSection) {
+  scene::Scene scene = support::uniform_rod(100, slender(1, 1), {});
+  scene.sections.push_back(scene.sections[0]);
+  scene.sections[1].length_mm = 1e-10;
+  const double tip = scene::length_mm(scene);
+  scene.loads = {scene::Moment{tip, Frame::fixed, {1, 0, 0}}};
+  const auto spans = scene::spans_of(scene);
+  ASSERT_EQ(spans.size(), 2u);
+  EXPECT_EQ(spans[0].end_mm, 100);
+  EXPECT_EQ(spans[1].end_mm, tip);
+  EXPECT_EQ(spans[1].fixed_load_B.moment_Nmm[0], 1);
+}
+
 // 0.03 kg/m under 9.81 m/s^2 weighs 0.2943 N/m = 2.943e-4 N/mm.
 TEST(Span, GravityInNewtonPerMillimetre) {
   scene::Stiffness heavy = slender(1, 1);
