@@ -1,6 +1,7 @@
 #include "fam/boundary_value.h"
 
 #include "fam/dual.h"
+#include "fam/rotation.h"
 #include "fam/span_stiffness.h"
 #include "scene/span_facts.h"
 
@@ -11,45 +12,6 @@
 
 namespace fam {
 namespace {
-
-// v with sin(angle) * axis of a rotation matrix; monotone up to a quarter turn.
-template <class T>
-Turn<T, 3> sine_vector(const Eigen::Matrix<T, 3, 3>& rotation) {
-  return T(0.5) *
-         Vector3<T>(rotation(2, 1) - rotation(1, 2), rotation(0, 2) - rotation(2, 0), rotation(1, 0) - rotation(0, 1));
-}
-template <class T>
-Turn<T, 2> sine_vector(const Eigen::Matrix<T, 2, 2>& rotation) {
-  return Turn<T, 2>(T(0.5) * (rotation(1, 0) - rotation(0, 1)));
-}
-
-// Less than a quarter turn: half a turn has no sine either.
-template <int D>
-bool is_small(const Eigen::Matrix<double, D, D>& rotation) {
-  return rotation.trace() > D - 2;
-}
-
-Vector3d rotation_vector(const Matrix3d& rotation) {
-  const Eigen::AngleAxisd turn(rotation);
-  return turn.angle() * turn.axis();
-}
-Turn<double, 2> rotation_vector(const Eigen::Matrix2d& rotation) {
-  return Turn<double, 2>(std::atan2(rotation(1, 0), rotation(0, 0)));
-}
-
-Matrix3d rotation_matrix(const Vector3d& vector) {
-  const double angle = vector.norm();
-  return angle > 0 ? Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix() : Matrix3d::Identity();
-}
-Eigen::Matrix2d rotation_matrix(const Turn<double, 2>& turn) {
-  return Eigen::Rotation2Dd(turn[0]).toRotationMatrix();
-}
-
-// Turns a section by a small rotation given in its own frame: the base axes turn back.
-template <class Matrix, class Vector>
-Matrix turned(const Matrix& rotation_SB, const Vector& turn_S) {
-  return rotation_matrix(turn_S).transpose() * rotation_SB;
-}
 
 // The larger of 1/EA and 1/kGA, per N.
 double compliance(const scene::Span& span) {
@@ -369,24 +331,6 @@ bool BasicBoundaryValue<D>::newton(double tolerance) {
   return segments_.size() == 1 ? newton_one_segment(false, tolerance) : newton_segments(tolerance);
 }
 
-// Where the last two loads point: rotations along their relative turn, wrenches along their difference.
-template <int D>
-std::vector<typename BasicBoundaryValue<D>::template State<double>> BasicBoundaryValue<D>::predict(
-    double factor) const {
-  std::vector<State<double>> guess = nodes_;
-  if (load_steps_ == 0) return guess;
-  const double ahead = (factor - factor_) / (factor_ - previous_factor_);
-  for (std::size_t k = 0; k < guess.size(); ++k) {
-    // R_B,new = R_B,now exp(turn): base axes in the section turn back.
-    const Turn<double, D> turn =
-        rotation_vector(Rotation(previous_[k].rotation_SB * nodes_[k].rotation_SB.transpose()));
-    guess[k].rotation_SB = turned(nodes_[k].rotation_SB, Turn<double, D>(ahead * turn));
-    guess[k].wrench.force_N += ahead * (nodes_[k].wrench.force_N - previous_[k].wrench.force_N);
-    guess[k].wrench.moment_Nmm += ahead * (nodes_[k].wrench.moment_Nmm - previous_[k].wrench.moment_Nmm);
-  }
-  return guess;
-}
-
 // The full load from the rest shape; first with a quarter of the arcs, whose derivatives then serve for all.
 template <int D>
 bool BasicBoundaryValue<D>::solve_at_once() {
@@ -412,106 +356,6 @@ typename BasicBoundaryValue<D>::Orientation BasicBoundaryValue<D>::orientation(b
   const double determinant =
       (exact ? equations.arrival.template topLeftCorner<turns, turns>().eval() : slope_).determinant();
   return {factor_, std::log(std::abs(determinant)), determinant < 0};
-}
-
-// Not on to where the determinant vanishes by the line through the last two.
-template <int D>
-double BasicBoundaryValue<D>::longest_step(const BranchWatch& watch) const {
-  if (!watch.determinant || watch.before.factor == watch.last.factor) return 1;
-  const double fall =
-      std::expm1(watch.before.log_size - watch.last.log_size) / (watch.last.factor - watch.before.factor);
-  return fall > 0 ? 0.8 / fall : 1;
-}
-
-// One load step, taken or undone. Returns the surprise, the largest rotation that was not predicted, in units of what
-// is allowed; empty if refused.
-template <int D>
-std::optional<double> BasicBoundaryValue<D>::try_step(double to, BranchWatch& watch) {
-  const double from = factor_;
-  const std::vector<State<double>> start = nodes_;
-  const std::vector<State<double>> guess = predict(to);
-  nodes_ = guess;
-  set_load(to);
-  bool accepted = newton(to < 1 ? std::max(newton_tolerance_, load_step_tolerance) : newton_tolerance_);
-  double turn = 0;
-  double surprise = 0;
-  for (std::size_t k = 0; accepted && k < nodes_.size(); ++k) {
-    turn = std::max(turn, rotation_vector(Rotation(nodes_[k].rotation_SB * start[k].rotation_SB.transpose())).norm());
-    surprise =
-        std::max(surprise, rotation_vector(Rotation(nodes_[k].rotation_SB * guess[k].rotation_SB.transpose())).norm());
-  }
-  surprise /= load_steps_ == 0 ? largest_turn_rad / 2 : largest_surprise_rad;
-  accepted = accepted && turn <= largest_turn_rad && surprise <= 1;
-  if (accepted && stays_on_branch(to - from, watch)) {
-    previous_ = start;
-    previous_factor_ = from;
-    ++load_steps_;
-    return surprise;
-  }
-  nodes_ = start;
-  set_load(from);
-  return std::nullopt;
-}
-
-// Judges the solution that a step of this length has led to, and remembers it if it is on the branch.
-template <int D>
-bool BasicBoundaryValue<D>::stays_on_branch(double step, BranchWatch& watch) {
-  Orientation now = orientation(false);
-  // Secants mend the derivatives of one segment well enough as long as the determinant does not fall.
-  const double size = (now.negative == watch.last.negative ? 1 : -1) * std::exp(now.log_size - watch.last.log_size);
-  if (!(size > 0.8)) now = orientation(true);
-  if (watch.determinant && now.negative != watch.last.negative) return false;
-  const bool falls = watch.stability && stable() == false;
-  if (falls && !(watch.may_fall && step <= smallest_bifurcation_step)) return false;
-  watch.stability = watch.stability && !falls;
-  watch.before = watch.last;
-  watch.last = now;
-  return true;
-}
-
-// Whether load steps this short, or the work done, are the end of it; message_ says so.
-template <int D>
-bool BasicBoundaryValue<D>::gives_up(double step) {
-  const std::string reached = std::to_string(100 * factor_) + " % of the load";
-  const long long marched = static_cast<long long>(newton_steps_) * arc_count();
-  if (marched > std::max<long long>(most_arcs_marched, static_cast<long long>(growth_passes) * arc_count())) {
-    message_ = "work limit: " + std::to_string(marched) + " arcs marched and only " + reached + " reached";
-    return true;
-  }
-  if (step >= smallest_load_step) return false;
-  message_ = "the load step fell below " + std::to_string(smallest_load_step) + " at " + reached;
-  return true;
-}
-
-template <int D>
-bool BasicBoundaryValue<D>::grow_load() {
-  if (one_equilibrium() && solve_at_once()) return true;
-  start_unloaded();
-  load_steps_ = 0;
-  if (!newton(newton_tolerance_)) {
-    message_ = "Newton did not converge at no load";
-    return false;
-  }
-  const scene::Symmetry symmetry = scene::symmetry_of(spans_);
-  BranchWatch watch{symmetry != scene::Symmetry::axis,
-                    scene::is_conservative(spans_),
-                    symmetry != scene::Symmetry::none,
-                    orientation(false),
-                    {}};
-  watch.before = watch.last;
-  double step = 1 / std::max(1.0, total_growth_ * total_growth_ + total_turn_rad_);
-  while (factor_ < 1) {
-    step = std::min(step, longest_step(watch));
-    if (gives_up(step)) return false;
-    const double from = factor_;
-    const double to = 1 - from <= 1.001 * step ? 1 : from + step;
-    if (const std::optional<double> surprise = try_step(to, watch)) {
-      step *= *surprise < 0.25 ? 2 : 1.2;
-    } else {
-      step = (to - from) / 2;
-    }
-  }
-  return true;
 }
 
 // Arcs, poses and the base wrench from the nodes.
