@@ -21,7 +21,8 @@ constexpr double first_turn_rad = 0.1;
 constexpr int most_load_steps = 3000;
 constexpr double most_work =
     500'000;  // intervals, summed over Newton's iterations: seconds; all our scenes need 26 000
-constexpr double smallest_step = 1e-8;  // of the load reached or of the first step, whichever is larger
+constexpr double most_rest_turn_rad = 1e4;  // two intervals a radian, and so seconds, too
+constexpr double smallest_step = 1e-8;      // of the load reached or of the first step, whichever is larger
 
 // Largest rotation between two sets of node states; a small quaternion change is half a rotation.
 template <class States>
@@ -132,6 +133,7 @@ bool follow_load(Path& path) {
       double slope = 0;
       for (const Core& t : tangent) slope = std::max(slope, 2 * t.head<4>().norm());
       step = first_step = std::min(1 / std::max(path.load_size, 1.0), first_turn_rad / std::max(slope, first_turn_rad));
+      if (!(first_step > 0)) return false;  // a load or a slope overflows
     }
     step = std::min(step, longest_step(path));
     double miss = HUGE_VAL;
@@ -212,6 +214,12 @@ void set_stability(scene::Equilibrium& result, const ScaledRod& rod, const Path&
   result.model.emplace_back("falling_directions", *falling);
 }
 
+double rest_turn_rad(const ScaledRod& rod) {
+  double turn = 0;
+  for (const ScaledSpan& span : rod.spans) turn += span.length() * span.rest_curvature_S.norm();
+  return turn;
+}
+
 std::string text(const char* format, double value) {
   char buffer[200];
   std::snprintf(buffer, sizeof buffer, format, value);
@@ -222,6 +230,11 @@ std::string text(const char* format, double value) {
 
 scene::Equilibrium solve_boundary_value(const ScaledRod& rod, double tolerance) {
   scene::Equilibrium result;
+  if (!(rest_turn_rad(rod) <= most_rest_turn_rad)) {
+    result.status = scene::Status::not_converged;
+    result.message = text("the rest shape turns by %.3g rad, more than 1e4", rest_turn_rad(rod));
+    return result;
+  }
   Path path{Shooting(rod, initial_intervals), {}};
   path.symmetry = rod.symmetry;
   path.load_size = rod.load_size();

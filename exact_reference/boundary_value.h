@@ -4,8 +4,9 @@
 // The load grows from nothing with a tangent predictor. A step is taken back and halved when Newton's iteration fails,
 // when it moves a section by more than 0.1 rad from the prediction, or when the step turns a section by more than
 // 0.8 rad; so the answer does not jump to another equilibrium. At a fold (the rod snaps) the step shrinks to nothing:
-// status load_step_too_small; so is a load that takes more than 3000 steps. Exactly symmetric scenes stay symmetric: a
-// straight rod under pure compression stays straight beyond the Euler load, with stable = false.
+// status load_step_too_small. not_converged: a load that takes more than 3000 steps or seconds of work, or a rest shape
+// that turns by more than 1e4 rad. Exactly symmetric scenes stay symmetric: a straight rod under pure compression stays
+// straight beyond the Euler load, with stable = false.
 //
 // The mesh is refined where a step and two half steps differ, then halved as a whole; the difference of the two tips is
 // the error estimate. Measured accuracy: solve.h.

@@ -143,7 +143,8 @@ std::vector<int> first_arcs(std::span<const Span> spans, bool planar) {
     moment += span.follower_load_S.moment_Nmm.norm() + span.fixed_load_B.moment_Nmm.norm();
     const double by_moment = planar ? 0 : moment * moment_growth_per_Nmm2(span);
     const double growth = span.length_mm() * (std::sqrt(force / least_stiffness_Nmm2(span)) + by_moment);
-    arcs[i] = static_cast<int>(std::clamp(std::ceil(growth / 1.5), 1.0, 1000.0));
+    const double wanted = std::ceil(growth / 1.5);  // NaN where numbers overflow
+    arcs[i] = wanted < 1000 ? std::max(1, static_cast<int>(wanted)) : 1000;
   }
   return arcs;
 }
