@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace fam {
 
@@ -84,14 +85,15 @@ bool BasicBoundaryValue<D>::stays_on_branch(double step, BranchWatch& watch) {
 // Whether load steps this short, or the work done, are the end of it; message_ says so.
 template <int D>
 bool BasicBoundaryValue<D>::gives_up(double step) {
-  const std::string reached = std::to_string(100 * factor_) + " % of the load";
   const long long marched = static_cast<long long>(newton_steps_) * arc_count();
-  if (marched > std::max<long long>(most_arcs_marched, static_cast<long long>(growth_passes) * arc_count())) {
-    message_ = "work limit: " + std::to_string(marched) + " arcs marched and only " + reached + " reached";
-    return true;
-  }
-  if (step >= smallest_load_step) return false;
-  message_ = "the load step fell below " + std::to_string(smallest_load_step) + " at " + reached;
+  const bool exhausted =
+      marched > std::max<long long>(most_arcs_marched, static_cast<long long>(growth_passes) * arc_count());
+  if (!exhausted && step >= smallest_load_step) return false;
+  std::ostringstream text;
+  if (exhausted) text << "work limit: " << marched << " arcs marched and only ";
+  else text << "the load step fell below " << smallest_load_step << " at ";
+  text << 100 * factor_ << " % of the load" << (exhausted ? " reached" : "");
+  message_ = text.str();
   return true;
 }
 
