@@ -232,7 +232,7 @@ scene::Equilibrium solve_boundary_value(const ScaledRod& rod, double tolerance) 
   scene::Equilibrium result;
   if (!(rest_turn_rad(rod) <= most_rest_turn_rad)) {
     result.status = scene::Status::not_converged;
-    result.message = text("the rest shape turns by %.3g rad, more than 1e4", rest_turn_rad(rod));
+    result.message = "the rest shape turns by more than 1e4 rad";
     return result;
   }
   Path path{Shooting(rod, initial_intervals), {}};
