@@ -1,9 +1,10 @@
 #include "scene/equilibrium.h"
 
+#include "scene/span.h"
+
 #include <Eigen/Geometry>
 
 #include <cmath>
-#include <numbers>
 
 namespace scene {
 
@@ -15,27 +16,24 @@ const char* name(Status status) {
     case Status::tolerance_not_met: return "tolerance_not_met";
     case Status::load_step_too_small: return "load_step_too_small";
     case Status::not_converged: return "not_converged";
+    case Status::work_limit: return "work_limit";
+    case Status::tendon_collapsed: return "tendon_collapsed";
     case Status::not_finite: return "not_finite";
   }
   return "unknown";
 }
 
-double total_angle_rad(const std::vector<Station>& stations) {
-  const double turn = 2 * std::numbers::pi;
-  constexpr double no_rotation_rad = 1e-7;  // below it the axis of a rotation matrix is round-off
-  Eigen::Vector3d followed = Eigen::Vector3d::Zero();
-  for (const Station& station : stations) {
-    const Eigen::AngleAxisd rotation(station.X_BS.rotation_BS);
-    if (rotation.angle() < no_rotation_rad && followed.norm() > turn / 2) {  // full turns: the axis is the old one
-      followed *= turn * std::round(followed.norm() / turn) / followed.norm();
-      continue;
-    }
-    // Of the rotation vectors (angle + 2 pi k) axis, the one nearest to the last.
-    const double along_axis = followed.dot(rotation.axis());
-    const double turns = std::round((along_axis - rotation.angle()) / turn);
-    followed = (rotation.angle() + turns * turn) * rotation.axis();
+double tip_angle_rad(const std::vector<Station>& stations, const std::optional<Eigen::Vector3d>& plane_normal_B) {
+  if (!plane_normal_B) return Eigen::AngleAxisd(stations.back().X_BS.rotation_BS).angle();
+  double angle = 0;
+  for (std::size_t i = 1; i < stations.size(); ++i) {
+    const Eigen::Matrix3d step =
+        stations[i - 1].X_BS.rotation_BS.transpose() * stations[i].X_BS.rotation_BS;
+    // The normal is the same in base and section frames. sin and cos of the turn about it.
+    const Eigen::Vector3d axis = moment_of_arms<double>(step) / 2;
+    angle += std::atan2(axis.dot(*plane_normal_B), (step.trace() - 1) / 2);
   }
-  return followed.norm();
+  return std::abs(angle);
 }
 
 }  // namespace scene

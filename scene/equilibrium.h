@@ -17,9 +17,14 @@ struct Pose {
   Eigen::Vector3d position_B_mm = Eigen::Vector3d::Zero();
 };
 
+// At a point load or a tendon's end the wrench is that of the side towards the clamp, the load included.
 struct Station {
   double s_mm = 0;
   Pose X_BS;
+  // The rod's own internal force and moment in the base frame: what the distal part exerts on the proximal one, less
+  // the tendons' pulls T t/|t| and r x T t/|t|.
+  Eigen::Vector3d force_B_N = Eigen::Vector3d::Zero();
+  Eigen::Vector3d moment_B_Nmm = Eigen::Vector3d::Zero();
 };
 
 enum class Status {
@@ -27,8 +32,10 @@ enum class Status {
   unsupported,          // the method cannot solve this kind of load or section; the message names it
   arc_not_converged,    // FAM: the angle of an arc, or its series, was not found (fam/solve.h)
   tolerance_not_met,    // the error estimate exceeds the tolerance at the largest number of arcs
-  load_step_too_small,  // the load step was halved below 1e-6 of the load
+  load_step_too_small,  // the load step was halved below the method's smallest
   not_converged,        // an iteration ended above its tolerance; the message gives both
+  work_limit,           // the method's bound on load steps, marched arcs or intervals was used up
+  tendon_collapsed,     // a tendon's path has no length somewhere, |v + u x r| = 0: its direction is not defined
   not_finite            // a pose or a wrench is NaN or infinite
 };
 
@@ -43,19 +50,21 @@ struct Equilibrium {
   Status status = Status::not_converged;
   std::string message;            // one line, why not converged; empty when converged
   std::vector<Station> stations;  // clamp to tip; the last one is the tip
-  double tip_angle_rad = 0;       // total rotation from clamp to tip, followed along the rod: two turns are 4 pi
-  Eigen::Vector3d base_force_B_N = Eigen::Vector3d::Zero();     // internal force at the clamp
-  Eigen::Vector3d base_moment_B_Nmm = Eigen::Vector3d::Zero();  // internal moment at the clamp
-  double error_estimate_mm = 0;                                 // of the tip's position
-  std::optional<bool> stable;                                   // empty: not decided
+  double tip_angle_rad = 0;       // see tip_angle_rad()
+  double error_estimate_mm = 0;   // of the position of any station
+  std::optional<bool> stable;     // empty: not decided
+  // How much of each of the scene's tendons leaves through the clamp: int |e_x + u0 x r| ds - int |v + u x r| ds.
+  std::vector<double> tendon_shortening_mm;
   std::vector<Fact> model;
 
   bool converged() const { return status == Status::converged; }
   const Pose& tip() const { return stations.back().X_BS; }
+  const Station& base() const { return stations.front(); }
 };
 
-// Total rotation angle at the last station: the rotation vector is followed from station to station on its nearest
-// branch, so that full turns count. Consecutive stations must be less than half a turn apart.
-double total_angle_rad(const std::vector<Station>& stations);
+// Where a plane's normal is given (of a planar scene, span_facts.h): the size of the turn about it, followed from station
+// to station, so that full turns count; consecutive stations must be less than half a turn apart. Else the rotation
+// angle of the last station, 0 to pi.
+double tip_angle_rad(const std::vector<Station>& stations, const std::optional<Eigen::Vector3d>& plane_normal_B);
 
 }  // namespace scene

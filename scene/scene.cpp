@@ -1,7 +1,9 @@
 #include "scene/scene.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <set>
 
 namespace scene {
 namespace {
@@ -88,6 +90,7 @@ class Checker {
   void check(const std::string& path, const Force& force) const {
     on_rod(path + ".at", force.at_mm);
     finite(path + ".value_N", force.value_N);
+    finite(path + ".offset_mm", force.offset_mm);
   }
   void check(const std::string& path, const Moment& moment) const {
     on_rod(path + ".at", moment.at_mm);
@@ -105,8 +108,11 @@ class Checker {
     finite(acceleration, gravity.acceleration_m_per_s2);
     require(has_mass_, acceleration, gravity.acceleration_m_per_s2, "gravity needs a section with a mass");
   }
-  void check(const std::string& path, const Tendon& tendon) const {
+  void check(const std::string& path, const Tendon& tendon) {
     finite(path + ".offset_mm", tendon.offset_mm);
+    tendon_offsets_.insert({tendon.offset_mm[0], tendon.offset_mm[1]});
+    require(tendon_offsets_.size() <= max_tendon_offsets, path + ".offset_mm", tendon.offset_mm,
+            "at most " + std::to_string(max_tendon_offsets) + " different offsets of tendons");
     not_negative(path + ".tension_N", tendon.tension_N);
     on_rod(path + ".to_mm", tendon.to_mm);
   }
@@ -134,6 +140,7 @@ class Checker {
   const std::string& source_;
   double length_mm_ = 0;
   bool has_mass_ = false;
+  std::set<std::array<double, 2>> tendon_offsets_;
 };
 
 }  // namespace

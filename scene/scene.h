@@ -31,6 +31,7 @@ constexpr double same_place_relative = 1e-12;
 // Limits that keep a scene within what the methods are tested for.
 constexpr int max_sections = 10'000;
 constexpr int max_loads = 100'000;
+constexpr int max_tendon_offsets = 32;  // different ones
 
 double length_mm(const Scene& scene);
 

@@ -222,8 +222,9 @@ Load read_load(const Node& node, double length) {
   const Node kind_node = node.at("kind");
   const std::string kind = kind_node.string();
   if (kind == "force") {
-    node.allow_keys({"kind", "at", "frame", "value_N"});
-    return Force{read_place(node, length), node.at("frame").frame(), node.at("value_N").vector<3>()};
+    node.allow_keys({"kind", "at", "frame", "value_N", "offset_mm"});
+    return Force{read_place(node, length), node.at("frame").frame(), node.at("value_N").vector<3>(),
+                 node.has("offset_mm") ? node.at("offset_mm").vector<2>() : Vector2d::Zero()};
   }
   if (kind == "moment") {
     node.allow_keys({"kind", "at", "frame", "value_Nmm"});
@@ -240,7 +241,8 @@ Load read_load(const Node& node, double length) {
   }
   if (kind == "tendon") {
     node.allow_keys({"kind", "offset_mm", "tension_N", "to_mm"});
-    return Tendon{node.at("offset_mm").vector<2>(), node.at("tension_N").number(), node.at("to_mm").number()};
+    return Tendon{node.at("offset_mm").vector<2>(), node.at("tension_N").number(),
+                  node.number_or("to_mm", length)};
   }
   kind_node.refuse("must be force, moment, distributed_force, gravity or tendon");
 }
@@ -344,10 +346,12 @@ struct LoadWriter {
   double length;
 
   Json operator()(const Force& force) const {
-    return {{"kind", "force"},
-            {"at", place(force.at_mm, length)},
-            {"frame", name(force.frame)},
-            {"value_N", list(force.value_N)}};
+    Json json{{"kind", "force"},
+              {"at", place(force.at_mm, length)},
+              {"frame", name(force.frame)},
+              {"value_N", list(force.value_N)}};
+    if (!force.offset_mm.isZero(0)) json["offset_mm"] = list(force.offset_mm);
+    return json;
   }
   Json operator()(const Moment& moment) const {
     return {{"kind", "moment"},

@@ -7,6 +7,17 @@
 namespace scene {
 namespace {
 
+// Where a load begins or ends.
+struct CutFinder {
+  std::vector<double> places;
+
+  void operator()(const Force& force) { places.push_back(force.at_mm); }
+  void operator()(const Moment& moment) { places.push_back(moment.at_mm); }
+  void operator()(const DistributedForce& force) { places.insert(places.end(), {force.from_mm, force.to_mm}); }
+  void operator()(const Gravity&) {}
+  void operator()(const Tendon& tendon) { places.push_back(tendon.to_mm); }
+};
+
 // Sorted places at which spans end, the clamp first. Section ends are kept exactly; other places closer than
 // same_place_relative * L to a kept one are that one, and shorter sections vanish.
 std::vector<double> cuts_of(const Scene& scene, double length) {
@@ -18,16 +29,9 @@ std::vector<double> cuts_of(const Scene& scene, double length) {
     if (end - section_ends.back() > same_place) section_ends.push_back(end);
   }
 
-  std::vector<double> places;
-  for (const Load& load : scene.loads) {
-    if (const auto* force = std::get_if<Force>(&load)) places.push_back(force->at_mm);
-    if (const auto* moment = std::get_if<Moment>(&load)) places.push_back(moment->at_mm);
-    if (const auto* tendon = std::get_if<Tendon>(&load)) places.push_back(tendon->to_mm);
-    if (const auto* force = std::get_if<DistributedForce>(&load)) {
-      places.push_back(force->from_mm);
-      places.push_back(force->to_mm);
-    }
-  }
+  CutFinder finder;
+  for (const Load& load : scene.loads) std::visit(finder, load);
+  std::vector<double>& places = finder.places;
   std::sort(places.begin(), places.end());
 
   std::vector<double> cuts = section_ends;
@@ -58,7 +62,14 @@ class LoadPlacer {
 
   void operator()(const Force& force) {
     Span& span = span_ending_at(force.at_mm);
-    (force.frame == Frame::follower ? span.follower_load_S : span.fixed_load_B).force_N += force.value_N;
+    const Eigen::Vector3d arm_S_mm(0, force.offset_mm[0], force.offset_mm[1]);
+    if (force.frame == Frame::follower) {
+      span.follower_load_S.force_N += force.value_N;
+      span.follower_load_S.moment_Nmm += arm_S_mm.cross(force.value_N);
+    } else {
+      span.fixed_load_B.force_N += force.value_N;
+      span.fixed_force_arms_BS_Nmm += force.value_N * arm_S_mm.transpose();
+    }
   }
   void operator()(const Moment& moment) {
     Span& span = span_ending_at(moment.at_mm);
@@ -77,12 +88,15 @@ class LoadPlacer {
     }
   }
   void operator()(const Tendon& tendon) {
-    const Eigen::Vector3d force(-tendon.tension_N, 0, 0);
-    const Eigen::Vector3d arm(0, tendon.offset_mm[0], tendon.offset_mm[1]);
+    if (tendon.tension_N == 0) return;
+    const Eigen::Vector3d arm_S_mm(0, tendon.offset_mm[0], tendon.offset_mm[1]);
     const std::size_t end = nearest_cut(cuts_, tendon.to_mm);
     for (std::size_t i = 0; i < end; ++i) {
-      spans_[i].tendon_S.force_N += force;
-      spans_[i].tendon_S.moment_Nmm += Eigen::Vector3d(0, -arm[2] * tendon.tension_N, arm[1] * tendon.tension_N);
+      std::vector<SectionTendon>& tendons = spans_[i].tendons;
+      const auto same = std::find_if(tendons.begin(), tendons.end(),
+                                     [&](const SectionTendon& other) { return other.arm_S_mm == arm_S_mm; });
+      if (same == tendons.end()) tendons.push_back({arm_S_mm, tendon.tension_N});
+      else same->tension_N += tendon.tension_N;
     }
   }
 

@@ -16,6 +16,12 @@ struct Wrench {
   bool is_zero() const { return force_N.isZero(0) && moment_Nmm.isZero(0); }
 };
 
+// The tendons that run through a section at one place, summed.
+struct SectionTendon {
+  Eigen::Vector3d arm_S_mm = Eigen::Vector3d::Zero();  // r = (0, y, z)
+  double tension_N = 0;
+};
+
 // A stretch of rod with one section and the same loads all along it.
 struct Span {
   double start_mm = 0;
@@ -24,18 +30,27 @@ struct Span {
   Eigen::Vector3d rest_curvature_per_mm = Eigen::Vector3d::Zero();
 
   // Point loads at end_mm, summed.
-  Wrench follower_load_S;  // in the section frame at end_mm
+  Wrench follower_load_S;  // in the section frame at end_mm; forces off the centreline with their moments
   Wrench fixed_load_B;     // in the base frame
+  // Sum of F_B r_S^T over the fixed forces off the centreline (the astatic tensor of their lever arms): their moment
+  // about the centreline, sum r x (R^T F) in the section frame, is the axial vector of R^T times it (moment_of_arms_S).
+  Eigen::Matrix3d fixed_force_arms_BS_Nmm = Eigen::Matrix3d::Zero();
 
   // Distributed forces all along the span, gravity included.
   Eigen::Vector3d follower_force_S_N_per_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d fixed_force_B_N_per_mm = Eigen::Vector3d::Zero();
 
-  // Internal force and moment of the tendons that run through the span; constant in the section frame.
-  Wrench tendon_S;
+  std::vector<SectionTendon> tendons;  // with different offsets, none slack
 
   double length_mm() const { return end_mm - start_mm; }
+  bool has_fixed_point_load() const { return !fixed_load_B.is_zero() || !fixed_force_arms_BS_Nmm.isZero(0); }
 };
+
+// sum r x f over the pairs that the tensor A = sum f r^T holds, f and r in one frame.
+template <class T>
+Eigen::Matrix<T, 3, 1> moment_of_arms(const Eigen::Matrix<T, 3, 3>& A) {
+  return {A(2, 1) - A(1, 2), A(0, 2) - A(2, 0), A(1, 0) - A(0, 1)};
+}
 
 // The spans of a valid scene, clamp to tip. Cost linear in sections + loads, but for the sort of the places and
 // for distributed loads and tendons, which visit each span they cover.

@@ -3,6 +3,7 @@
 
 #include "scene/span.h"
 
+#include <optional>
 #include <span>
 
 namespace scene {
@@ -10,8 +11,16 @@ namespace scene {
 // The march from the tip suffices: all loads are in the section frame and none is distributed.
 bool all_loads_follow(std::span<const Span> spans);
 
-// All bending is about one axis of the section, y or z, and nothing twists.
-bool is_planar(std::span<const Span> spans);
+// The plane through the undeformed axis in which all loads, rest curvatures and tendons lie: the unit vector (y, z) that
+// spans it with the x axis; (1, 0) where they ask for none. Any plane if all sections have EI_y = EI_z and equal shear
+// stiffnesses, else the x-y or the x-z plane. Tendons lie in a plane if it mirrors them onto each other.
+std::optional<Eigen::Vector2d> plane_direction(std::span<const Span> spans);
+
+// The unit normal of that plane, about which such a rod turns.
+std::optional<Eigen::Vector3d> plane_normal(std::span<const Span> spans);
+
+// All sections are the same about y and z.
+bool is_isotropic(std::span<const Span> spans);
 
 // What leaves the scene as it is: half a turn about the axis (nothing but tension, torque and twist along it), or else
 // the mirror of a plane that all bending lies in. A rod can stay on an unstable branch only as far as its symmetry

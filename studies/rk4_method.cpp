@@ -62,8 +62,8 @@ class Rk4Method : public Method {
     result.stations = solver->stations();
     result.tip_angle_rad = scene::total_angle_rad(result.stations);
     result.error_estimate_mm = error_estimate_mm(scene, result.tip().position_B_mm);
-    result.base_force_B_N = solver->base_force_B_N();
-    result.base_moment_B_Nmm = solver->base_moment_B_Nmm();
+    result.base().force_B_N = solver->base_force_B_N();
+    result.base().moment_B_Nmm = solver->base_moment_B_Nmm();
     return result;
   }
 

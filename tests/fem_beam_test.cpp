@@ -77,7 +77,7 @@ TEST(FemBeam, RollUpByAnEndMoment) {
     const scene::Equilibrium one = roll(1, k, bare(50));
     EXPECT_LT(one.tip().position_B_mm.norm(), 1e-6 * L);
     EXPECT_NEAR(one.tip_angle_rad, 2 * pi, 1e-5);
-    EXPECT_LT((one.base_moment_B_Nmm - Vector3d(0, 0, 2 * pi * EI / L)).norm(), 1e-9 * EI / L);
+    EXPECT_LT((one.base().moment_B_Nmm - Vector3d(0, 0, 2 * pi * EI / L)).norm(), 1e-9 * EI / L);
     const scene::Equilibrium two = roll(2, k, bare(50));
     EXPECT_LT(two.tip().position_B_mm.norm(), 1e-5 * L);
     EXPECT_NEAR(two.tip_angle_rad, 4 * pi, 1e-4);
@@ -232,8 +232,8 @@ void expect_equal(const scene::Scene& scene, const Options& options, const Refer
   const double limit_mm = 1e-7 * 40;
   const scene::Equilibrium found = solved(scene, options);
   EXPECT_LT((found.tip().position_B_mm - reference.tip_mm).norm(), limit_mm);
-  EXPECT_LT((found.base_force_B_N - reference.base_force_N).norm(), 1e-6);
-  EXPECT_LT((found.base_moment_B_Nmm - reference.base_moment_Nmm).norm(), 1e-5);
+  EXPECT_LT((found.base().force_B_N - reference.base_force_N).norm(), 1e-6);
+  EXPECT_LT((found.base().moment_B_Nmm - reference.base_moment_Nmm).norm(), 1e-5);
   EXPECT_GT((tip_mm(support::stiffer(scene), options) - reference.tip_mm).norm(), limit_mm);
 }
 
@@ -285,8 +285,8 @@ TEST(FemBeam, ATendonBendsItsPartOfTheRodIntoAnArc) {
   const Vector3d exact(stretch * std::sin(angle) / kappa + rest_mm * std::cos(angle),
                        stretch * (1 - std::cos(angle)) / kappa + rest_mm * std::sin(angle), 0);
   EXPECT_LT((found.tip().position_B_mm - exact).norm(), 1e-7 * 40);
-  EXPECT_LT((found.base_force_B_N - Vector3d(-T, 0, 0)).norm(), 1e-9);
-  EXPECT_LT((found.base_moment_B_Nmm - Vector3d(0, 0, y * T)).norm(), 1e-8);
+  EXPECT_LT((found.base().force_B_N - Vector3d(-T, 0, 0)).norm(), 1e-9);
+  EXPECT_LT((found.base().moment_B_Nmm - Vector3d(0, 0, y * T)).norm(), 1e-8);
 }
 
 // --- order, locking, invariance
@@ -366,7 +366,7 @@ TEST(FemBeam, ATurnedSceneHasTheTurnedAnswer) {
     EXPECT_LT((Q * a.stations[i].X_BS.position_B_mm - b.stations[i].X_BS.position_B_mm).norm(), 1e-9);
     EXPECT_LT((Q * a.stations[i].X_BS.rotation_BS * Q.transpose() - b.stations[i].X_BS.rotation_BS).norm(), 1e-9);
   }
-  EXPECT_LT((Q * a.base_moment_B_Nmm - b.base_moment_B_Nmm).norm(), 1e-8);
+  EXPECT_LT((Q * a.base().moment_B_Nmm - b.base().moment_B_Nmm).norm(), 1e-8);
 }
 
 // --- what is reported

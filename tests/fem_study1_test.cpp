@@ -62,9 +62,9 @@ TEST(FemStudy1, BaseCarriesTheFixedLoads) {
       if (const auto* tip_moment = std::get_if<scene::Moment>(&load)) moment += tip_moment->value_Nmm;
     }
     moment += found.tip().position_B_mm.cross(force_N);
-    EXPECT_LT((found.base_force_B_N - force_N).norm(), 1e-10) << c.label();
+    EXPECT_LT((found.base().force_B_N - force_N).norm(), 1e-10) << c.label();
     // The element's moment balance holds in the weak sense: as exact as the tip's place.
-    EXPECT_LT((found.base_moment_B_Nmm - moment).norm(), 1e-4) << c.label();
+    EXPECT_LT((found.base().moment_B_Nmm - moment).norm(), 1e-4) << c.label();
   }
 }
 

@@ -172,8 +172,8 @@ TEST(March, BaseWrenchBalancesTheLoads) {
     const scene::Equilibrium result = fam::solve(check_rod(), with(law, 12));
     const Vector3d force = result.tip().rotation_BS * Vector3d(-0.5, 0.8, 0.6);
     const Vector3d moment = result.tip().rotation_BS * Vector3d(10, 20, -15) + result.tip().position_B_mm.cross(force);
-    EXPECT_LT((result.base_force_B_N - force).norm(), 1e-14);
-    EXPECT_LT((result.base_moment_B_Nmm - moment).norm(), 1e-12);
+    EXPECT_LT((result.base().force_B_N - force).norm(), 1e-14);
+    EXPECT_LT((result.base().moment_B_Nmm - moment).norm(), 1e-12);
   }
 }
 
@@ -204,8 +204,8 @@ TEST(March, TendonClosedForm) {
     const scene::Scene scene = uniform_rod(40, slender(750, 500), {scene::Tendon{{1.5, 0}, 3, 40}});
     EXPECT_LT((tip(scene, with(law, 5)) - circle).norm(), 1e-13);
     const scene::Equilibrium result = fam::solve(scene, with(law, 5));
-    EXPECT_LT((result.base_force_B_N - Vector3d(-3, 0, 0)).norm(), 1e-15);
-    EXPECT_LT((result.base_moment_B_Nmm - Vector3d(0, 0, 4.5)).norm(), 1e-15);
+    EXPECT_LT((result.base().force_B_N - Vector3d(-3, 0, 0)).norm(), 1e-15);
+    EXPECT_LT((result.base().moment_B_Nmm - Vector3d(0, 0, 4.5)).norm(), 1e-15);
     EXPECT_GT((tip(support::stiffer(scene), with(law, 5)) - circle).norm(), 1e-2);
   }
 }

@@ -86,7 +86,7 @@ TEST(ModelChoice, APlanarSceneRunsThePlanarKernel) {
       EXPECT_EQ(fact<std::string>(turned, "kernel"), "planar") << angle;
       EXPECT_LT((turned.tip().position_B_mm - turn * flat.tip().position_B_mm).norm(), 1e-11);
       EXPECT_LT((turned.tip().rotation_BS - turn * flat.tip().rotation_BS * turn.transpose()).norm(), 1e-12);
-      EXPECT_LT((turned.base_moment_B_Nmm - turn * flat.base_moment_B_Nmm).norm(), 1e-10);
+      EXPECT_LT((turned.base().moment_B_Nmm - turn * flat.base().moment_B_Nmm).norm(), 1e-10);
     }
     const scene::Equilibrium spatial = solved(tip_loaded(force, moment + Vector3d(0, 1e-6, 0), frame));
     EXPECT_EQ(fact<std::string>(spatial, "kernel"), "spatial");

@@ -66,8 +66,8 @@ TEST(Rk4Shooting, TakesSectionsAndDistributedLoads) {
   const scene::Equilibrium exact = exact_reference::solve(scene);
   ASSERT_TRUE(ours.converged() && exact.converged());
   EXPECT_LT((ours.tip().position_B_mm - exact.tip().position_B_mm).norm(), 1e-6);
-  EXPECT_LT((ours.base_force_B_N - exact.base_force_B_N).norm(), 1e-7);
-  EXPECT_LT((ours.base_moment_B_Nmm - exact.base_moment_B_Nmm).norm(), 1e-6);
+  EXPECT_LT((ours.base().force_B_N - exact.base().force_B_N).norm(), 1e-7);
+  EXPECT_LT((ours.base().moment_B_Nmm - exact.base().moment_B_Nmm).norm(), 1e-6);
 }
 
 TEST(Rk4Shooting, DoesNotAllocateWhileSolving) {

@@ -37,9 +37,10 @@ TEST(Span, CutsAtSectionsLoadsAndEndsOnce) {
   const std::vector<double> distributed = {0, 1, 1, 1, 0};
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(spans[i].fixed_force_B_N_per_mm[2], distributed[i]);
   // r x (-T e_x) with r = (0, 2, 3): (0, -3 T, 2 T).
-  EXPECT_EQ(spans[1].tendon_S.moment_Nmm, Eigen::Vector3d(0, -30, 20));
-  EXPECT_EQ(spans[1].tendon_S.force_N, Eigen::Vector3d(-10, 0, 0));
-  EXPECT_TRUE(spans[2].tendon_S.is_zero());
+  ASSERT_EQ(spans[1].tendons.size(), 1u);
+  EXPECT_EQ(spans[1].tendons[0].arm_S_mm, Eigen::Vector3d(0, 2, 3));
+  EXPECT_EQ(spans[1].tendons[0].tension_N, 10);
+  EXPECT_TRUE(spans[2].tendons.empty());
 }
 
 // The last section is 7037 units in the last place of its end long, the same-place distance 7036.9 of them: s - distance
