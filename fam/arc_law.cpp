@@ -1,5 +1,7 @@
 #include "fam/arc_law.h"
 
+#include "fam/span_stiffness.h"
+
 namespace fam {
 namespace {
 
@@ -37,6 +39,11 @@ Residual moment_residual(const PlaneLoad& load, double angle) {
           1 - 2 * mean_slope + gram(r0, r1, r2, r0, r1, r2)};
 }
 
+Screw distal_strain(const ArcConstants& constants, const SectionWrench& distal) {
+  if (constants.tendons.empty()) return ElasticSection<false, double, 3>(constants).strain(distal);
+  return TendonSection<false, double, 3>(constants).strain(distal);
+}
+
 }  // namespace
 
 template <int D>
@@ -48,23 +55,37 @@ BasicArcConstants<D> arc_constants(const scene::Span& span, int arcs, RodModel m
   BasicArcConstants<D> arc;
   arc.length_mm = h;
   arc.angular_compliance = h * turn_in_space_or_plane<D>(bending_and_torsion.cwiseInverse());
-  arc.rest_rotation =
-      h * turn_in_space_or_plane<D>(span.rest_curvature_per_mm) +
-      load_factor * arc.angular_compliance.cwiseProduct(turn_in_space_or_plane<D>(span.tendon_S.moment_Nmm));
+  arc.rest_rotation = h * turn_in_space_or_plane<D>(span.rest_curvature_per_mm);
   arc.rest_translation_mm[0] = h;
   if (model == RodModel::reissner) {
     Vector3d compliance = Vector3d::Zero();
     if (stiffness.axial_N) compliance[0] = h / *stiffness.axial_N;
     if (stiffness.shear_N) compliance.tail<2>() = h * stiffness.shear_N->cwiseInverse();
     arc.linear_compliance = in_space_or_plane<D>(compliance);
-    arc.rest_translation_mm +=
-        load_factor * arc.linear_compliance.cwiseProduct(in_space_or_plane<D>(span.tendon_S.force_N));
   }
+  set_tendons(arc, span, model, load_factor);
   return arc;
+}
+
+template <int D>
+void set_tendons(BasicArcConstants<D>& arc, const scene::Span& span, RodModel model, double load_factor) {
+  arc.straight_tendons = D == 2 && model == RodModel::kirchhoff;
+  if (arc.straight_tendons) {
+    arc.rest_rotation =
+        arc.length_mm * turn_in_space_or_plane<D>(span.rest_curvature_per_mm) +
+        load_factor * arc.angular_compliance.cwiseProduct(turn_in_space_or_plane<D>(straight_tendons(span).moment_Nmm));
+  }
+  arc.tendons.clear();
+  if (load_factor == 0) return;
+  for (const scene::SectionTendon& tendon : span.tendons) {
+    arc.tendons.push_back({in_space_or_plane<D>(tendon.arm_S_mm), load_factor * tendon.tension_N});
+  }
 }
 
 template BasicArcConstants<2> arc_constants(const scene::Span&, int, RodModel, double);
 template BasicArcConstants<3> arc_constants(const scene::Span&, int, RodModel, double);
+template void set_tendons(BasicArcConstants<2>&, const scene::Span&, RodModel, double);
+template void set_tendons(BasicArcConstants<3>&, const scene::Span&, RodModel, double);
 
 bool published_angle(const PlaneLoad& load, double& angle_rad) {
   double angle = load.moment + load.normal / 2;  // curvature of the straight arc's mean moment
@@ -89,8 +110,8 @@ bool published_angle(const PlaneLoad& load, double& angle_rad) {
 bool published_arc(const ArcConstants& constants, const SectionWrench& distal, TwistOrder order, Arc& arc) {
   const double h = constants.length_mm;
   const Vector3d& F = distal.force_N;
-  // h K^-1 M with the rest curvature and the tendons as moments.
-  const Vector3d turn = constants.rest_rotation + constants.angular_compliance.cwiseProduct(distal.moment_Nmm);
+  // h K^-1 M with the rest curvature and the tendons, in their directions at the distal end, as moments.
+  const Vector3d turn = distal_strain(constants, distal).rotation;
   const double bending_compliance = constants.angular_compliance[1];
 
   // Bending plane on the straight arc: M + h e_x x F without its x component, here times h/EI.

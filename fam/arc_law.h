@@ -10,6 +10,7 @@
 #pragma once
 
 #include "fam/arc.h"
+#include "fam/tendon.h"
 
 #include "scene/span.h"
 
@@ -28,9 +29,11 @@ template <int D>
 struct BasicArcConstants {
   double length_mm = 0;                                               // h
   Turn<double, D> angular_compliance = Turn<double, D>::Zero();       // h / (GJ, EI_y, EI_z)
-  Turn<double, D> rest_rotation = Turn<double, D>::Zero();            // h (u0 + tendon moment / stiffness)
+  Turn<double, D> rest_rotation = Turn<double, D>::Zero();            // h (u0 + moment of straight tendons / stiffness)
   Vector<double, D> linear_compliance = Vector<double, D>::Zero();    // h / (EA, kGA_y, kGA_z); 0: does not give way
-  Vector<double, D> rest_translation_mm = Vector<double, D>::Zero();  // h (e_x + tendon force / stiffness)
+  Vector<double, D> rest_translation_mm = Vector<double, D>::Zero();  // h e_x
+  std::vector<BasicTendon<D>> tendons;
+  bool straight_tendons = false;  // along e_x whatever the strain: their moment is in rest_rotation
 };
 using ArcConstants = BasicArcConstants<3>;
 
@@ -46,21 +49,42 @@ Turn<double, D> turn_in_space_or_plane(const Vector3d& w) {
 
 enum class RodModel { automatic, kirchhoff, reissner };
 
-// Constants of the arcs of a span that is cut into `arcs`; the tendons' tension is multiplied by load_factor.
+// Constants of the arcs of a span that is cut into `arcs`. set_tendons: their tension times load_factor, without
+// allocation after the first time.
 template <int D = 3>
 BasicArcConstants<D> arc_constants(const scene::Span& span, int arcs, RodModel model, double load_factor = 1);
+template <int D>
+void set_tendons(BasicArcConstants<D>& arc, const scene::Span& span, RodModel model, double load_factor);
 
-// Strain times h under a wrench; the Kirchhoff rod keeps the rest translation.
+// What a law asks of a section: the strain times h under a wrench, and the coefficients of its series along an arc.
+// This one is elastic, without tendons (theirs: fam/tendon.h); a Kirchhoff rod keeps the rest translation.
 template <bool with_shear, class T, int D>
-BasicScrew<T, D> strain(const BasicArcConstants<D>& arc, const BasicWrench<T, D>& wrench) {
-  BasicScrew<T, D> screw{
-      arc.rest_rotation.template cast<T>() + arc.angular_compliance.template cast<T>().cwiseProduct(wrench.moment_Nmm),
-      arc.rest_translation_mm.template cast<T>()};
-  if constexpr (with_shear) {
-    screw.translation_mm += arc.linear_compliance.template cast<T>().cwiseProduct(wrench.force_N);
+class ElasticSection {
+ public:
+  static constexpr bool gives_way = with_shear;
+  static constexpr bool is_flat = true;
+  explicit ElasticSection(const BasicArcConstants<D>& arc) : arc_(arc) {}
+
+  BasicScrew<T, D> strain(const BasicWrench<T, D>& wrench) const {
+    BasicScrew<T, D> screw{arc_.rest_rotation.template cast<T>() +
+                               arc_.angular_compliance.template cast<T>().cwiseProduct(wrench.moment_Nmm),
+                           arc_.rest_translation_mm.template cast<T>()};
+    if constexpr (with_shear) {
+      screw.translation_mm += arc_.linear_compliance.template cast<T>().cwiseProduct(wrench.force_N);
+    }
+    return screw;
   }
-  return screw;
-}
+  void begin_series(const BasicScrew<T, D>&) const {}
+  void next(std::size_t, const Turn<T, D>& moment_Nmm, const Vector<T, D>& force_N, Turn<T, D>& rotation,
+            Vector<T, D>& translation_mm) const {
+    rotation = arc_.angular_compliance.template cast<T>().cwiseProduct(moment_Nmm);
+    if constexpr (with_shear) translation_mm = arc_.linear_compliance.template cast<T>().cwiseProduct(force_N);
+  }
+  bool collapsed() const { return false; }
+
+ private:
+  const BasicArcConstants<D>& arc_;
+};
 
 // Distributed forces on an arc, times h. Both are constant along it: one in the section frame, one in the base frame,
 // of which the components in the arc's distal frame D are known when the arc is met.
@@ -81,38 +105,38 @@ BasicWrench<T, D> growth(const ArcForces<T, D>& forces, const BasicMotion<T, D>&
   return {force, -arm_cross(motion.rotate_back(motion.position_mm), force)};
 }
 
-template <bool with_shear, class T, int D>
-BasicMotion<T, D> midpoint_step(const BasicArcConstants<D>& arc, const ArcForces<T, D>* forces,
-                                BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw) {
-  const BasicScrew<T, D> k1 = strain<with_shear>(arc, wrench);
+template <class Section, class T, int D>
+BasicMotion<T, D> midpoint_step(Section& section, const ArcForces<T, D>* forces, BasicWrench<T, D>& wrench,
+                                BasicScrew<T, D>& screw) {
+  const BasicScrew<T, D> k1 = section.strain(wrench);
   const BasicMotion<T, D> half = exponential(0.5 * k1);
   BasicWrench<T, D> middle = wrench;
   if (forces) {
     middle = wrench + 0.5 * growth(*forces, exponential(BasicScrew<T, D>{}));
     wrench = wrench + growth(*forces, half);
   }
-  screw = strain<with_shear>(arc, transport(half, middle));
+  screw = section.strain(transport(half, middle));
   BasicMotion<T, D> motion = exponential(screw);
   wrench = transport(motion, wrench);
   return motion;
 }
 
-template <bool with_shear, class T, int D>
-BasicMotion<T, D> fourth_order_step(const BasicArcConstants<D>& arc, const ArcForces<T, D>* forces,
-                                    BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw) {
+template <class Section, class T, int D>
+BasicMotion<T, D> fourth_order_step(Section& section, const ArcForces<T, D>* forces, BasicWrench<T, D>& wrench,
+                                    BasicScrew<T, D>& screw) {
   const auto grow = [&](double factor, const BasicMotion<T, D>& motion, BasicWrench<T, D>& growth_here) {
     if (!forces) return wrench;
     growth_here = growth(*forces, motion);
     return wrench + factor * growth_here;
   };
   BasicWrench<T, D> l1, l2, l3, l4;
-  const BasicScrew<T, D> k1 = strain<with_shear>(arc, wrench);
+  const BasicScrew<T, D> k1 = section.strain(wrench);
   const BasicMotion<T, D> to2 = exponential(0.5 * k1);
-  const BasicScrew<T, D> k2 = strain<with_shear>(arc, transport(to2, grow(0.5, exponential(BasicScrew<T, D>{}), l1)));
+  const BasicScrew<T, D> k2 = section.strain(transport(to2, grow(0.5, exponential(BasicScrew<T, D>{}), l1)));
   const BasicMotion<T, D> to3 = exponential(0.5 * k2 + (-1 / 8.) * bracket(k1, k2));
-  const BasicScrew<T, D> k3 = strain<with_shear>(arc, transport(to3, grow(0.5, to2, l2)));
+  const BasicScrew<T, D> k3 = section.strain(transport(to3, grow(0.5, to2, l2)));
   const BasicMotion<T, D> to4 = exponential(k3);
-  const BasicScrew<T, D> k4 = strain<with_shear>(arc, transport(to4, grow(1, to3, l3)));
+  const BasicScrew<T, D> k4 = section.strain(transport(to4, grow(1, to3, l3)));
   screw = (1 / 6.) * (k1 + 2.0 * (k2 + k3) + k4) + (-1 / 12.) * bracket(k1, k4);
   BasicMotion<T, D> motion = exponential(screw);
   if (forces) {
@@ -132,17 +156,17 @@ struct RodSeries {
 };
 
 // n' = u x n + f, m' = u x m + v x n, f' = u x f for the force fixed in space (primes towards the proximal end).
-template <bool with_shear, std::size_t terms, class T, int D>
-RodSeries<T, D, terms> rod_series(const BasicArcConstants<D>& arc, const ArcForces<T, D>* forces,
-                                  const BasicWrench<T, D>& wrench) {
+template <std::size_t terms, class Section, class T, int D>
+RodSeries<T, D, terms> rod_series(Section& section, const ArcForces<T, D>* forces, const BasicWrench<T, D>& wrench) {
   RodSeries<T, D, terms> s;
   std::array<Vector<T, D>, terms> fixed_N;
   s.force_N[0] = wrench.force_N;
   s.moment_Nmm[0] = wrench.moment_Nmm;
   if (forces) fixed_N[0] = forces->fixed_D_N;
-  const BasicScrew<T, D> first = strain<with_shear>(arc, wrench);
+  const BasicScrew<T, D> first = section.strain(wrench);
   s.rotation[0] = first.rotation;
   s.translation_mm[0] = first.translation_mm;
+  section.begin_series(first);
 #pragma GCC unroll 8
   for (std::size_t k = 0; k + 1 < terms; ++k) {
     Vector<T, D> force = cross(s.rotation[0], s.force_N[k]);
@@ -151,7 +175,7 @@ RodSeries<T, D, terms> rod_series(const BasicArcConstants<D>& arc, const ArcForc
     for (std::size_t j = 1; j <= k; ++j) {
       force += cross(s.rotation[j], s.force_N[k - j]);
       moment += cross(s.rotation[j], s.moment_Nmm[k - j]);
-      if constexpr (with_shear) moment += arm_cross(s.translation_mm[j], s.force_N[k - j]);
+      if constexpr (Section::gives_way) moment += arm_cross(s.translation_mm[j], s.force_N[k - j]);
     }
     const T share = T(1.0 / static_cast<double>(k + 1));
     if (forces) {
@@ -163,10 +187,7 @@ RodSeries<T, D, terms> rod_series(const BasicArcConstants<D>& arc, const ArcForc
     }
     s.force_N[k + 1] = share * force;
     s.moment_Nmm[k + 1] = share * moment;
-    s.rotation[k + 1] = arc.angular_compliance.template cast<T>().cwiseProduct(s.moment_Nmm[k + 1]);
-    if constexpr (with_shear) {
-      s.translation_mm[k + 1] = arc.linear_compliance.template cast<T>().cwiseProduct(s.force_N[k + 1]);
-    }
+    section.next(k + 1, s.moment_Nmm[k + 1], s.force_N[k + 1], s.rotation[k + 1], s.translation_mm[k + 1]);
   }
   return s;
 }
@@ -206,20 +227,41 @@ BasicScrew<T, D> magnus(const RodSeries<T, D, terms>& s) {
          bracket(a2, (-1 / 240.) * (a3 + b));
 }
 
-template <bool with_shear, class T, int D>
-BasicMotion<T, D> sixth_order_step(const BasicArcConstants<D>& arc, const ArcForces<T, D>* forces,
-                                   BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw) {
+template <class Section, class T, int D>
+BasicMotion<T, D> sixth_order_step(Section& section, const ArcForces<T, D>* forces, BasicWrench<T, D>& wrench,
+                                   BasicScrew<T, D>& screw) {
   if (!forces) {
-    screw = magnus<with_shear>(rod_series<with_shear, 6>(arc, forces, wrench));
+    screw = magnus<Section::gives_way>(rod_series<6>(section, forces, wrench));
     BasicMotion<T, D> motion = exponential(screw);
     wrench = transport(motion, wrench);
     return motion;
   }
-  const RodSeries<T, D, 7> s = rod_series<with_shear, 7>(arc, forces, wrench);
-  screw = magnus<with_shear>(s);
+  const RodSeries<T, D, 7> s = rod_series<7>(section, forces, wrench);
+  screw = magnus<Section::gives_way>(s);
   constexpr std::array<double, 7> ones{1, 1, 1, 1, 1, 1, 1};
   wrench = {weighted(s.force_N, ones), weighted(s.moment_Nmm, ones)};
   return exponential(screw);
+}
+
+// The step of a law but published.
+template <class Section, class T, int D>
+BasicMotion<T, D> law_step(Law law, Section& section, const ArcForces<T, D>* forces, BasicWrench<T, D>& wrench,
+                           BasicScrew<T, D>& screw) {
+  if (law == Law::midpoint) return midpoint_step(section, forces, wrench, screw);
+  if (law == Law::fourth_order) return fourth_order_step(section, forces, wrench, screw);
+  return sixth_order_step(section, forces, wrench, screw);
+}
+
+// Calls visit(section) with the section of a span's arcs.
+template <bool with_shear, class T, int D, class Visit>
+void with_section(const BasicArcConstants<D>& constants, Visit&& visit) {
+  if (constants.tendons.empty() || constants.straight_tendons) {
+    ElasticSection<with_shear, T, D> section(constants);
+    visit(section);
+  } else {
+    TendonSection<with_shear, T, D> section(constants);
+    visit(section);
+  }
 }
 
 // Bending angle of the published law in its plane, all quantities made dimensionless with h and EI: the root of

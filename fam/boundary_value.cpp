@@ -19,21 +19,11 @@ double compliance(const scene::Span& span) {
   return span.stiffness.shear_N ? std::max(axial, 1 / span.stiffness.shear_N->minCoeff()) : axial;
 }
 
-// The step of a law.
-template <bool with_shear, class T, int D>
-BasicMotion<T, D> law_step(Law law, const BasicArcConstants<D>& constants, const ArcForces<T, D>* distributed,
-                           BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw) {
-  if (law == Law::midpoint) return midpoint_step<with_shear>(constants, distributed, wrench, screw);
-  if (law == Law::fourth_order) return fourth_order_step<with_shear>(constants, distributed, wrench, screw);
-  return sixth_order_step<with_shear>(constants, distributed, wrench, screw);
-}
-
-// The same with every call inlined: twice as fast, but for many derivatives minutes to compile.
-template <bool with_shear, class T, int D>
-FAM_FLATTEN BasicMotion<T, D> flat_step(Law law, const BasicArcConstants<D>& constants,
-                                        const ArcForces<T, D>* distributed, BasicWrench<T, D>& wrench,
-                                        BasicScrew<T, D>& screw) {
-  return law_step<with_shear>(law, constants, distributed, wrench, screw);
+// The step of a law with every call inlined: twice as fast, but for many derivatives minutes to compile.
+template <class Section, class T, int D>
+FAM_FLATTEN BasicMotion<T, D> flat_step(Law law, Section& section, const ArcForces<T, D>* distributed,
+                                        BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw) {
+  return law_step(law, section, distributed, wrench, screw);
 }
 
 }  // namespace
@@ -51,14 +41,13 @@ BasicBoundaryValue<D>::BasicBoundaryValue(std::span<const scene::Span> spans, st
   int first_arc = 0;
   for (std::size_t i = 0; i < spans_.size(); ++i) {
     bending_Nmm2_ = std::min(bending_Nmm2_, least_stiffness_Nmm2(spans_[i]));
-    SpanArcs& arcs = span_arcs_.emplace_back();
-    arcs.first_arc = first_arc;
-    arcs.end_arc = first_arc += arcs_per_span_[i];
-    arcs.distributed = !spans_[i].follower_force_S_N_per_mm.isZero(0) || !spans_[i].fixed_force_B_N_per_mm.isZero(0);
+    span_arcs_.emplace_back(spans_[i], model, first_arc, arcs_per_span[i]);
+    first_arc += arcs_per_span[i];
   }
   arcs_.resize(static_cast<std::size_t>(first_arc));
   motions_.resize(arcs_.size());
   poses_.resize(arcs_.size() + 1);
+  distal_wrenches_S_.resize(arcs_.size());
   cut_into_segments();
   if (!one_equilibrium() || arc_count() < 4 * static_cast<int>(spans_.size())) return;
   std::vector<int> few = arcs_per_span_;
@@ -77,12 +66,13 @@ void BasicBoundaryValue<D>::cut_into_segments() {
   double force = 0;
   double moment = 0;
   double since_cut = 0;
-  const bool planar = scene::is_planar(spans_);
+  const bool planar = scene::plane_direction(spans_).has_value();
   int end_arc = arc_count();
   for (std::size_t i = spans_.size(); i-- > 0;) {
     const scene::Span& span = spans_[i];
     force += span.follower_load_S.force_N.norm() + span.fixed_load_B.force_N.norm();
-    moment += span.follower_load_S.moment_Nmm.norm() + span.fixed_load_B.moment_Nmm.norm();
+    moment += load_moment_Nmm(span);
+    const scene::Wrench tendons = straight_tendons(span);
     const double per_mm = span.follower_force_S_N_per_mm.norm() + span.fixed_force_B_N_per_mm.norm();
     const double h = span.length_mm() / arcs_per_span_[i];
     for (int arc = span_arcs_[i].end_arc; arc-- > span_arcs_[i].first_arc;) {
@@ -93,10 +83,10 @@ void BasicBoundaryValue<D>::cut_into_segments() {
       total_turn_rad_ += h * moment / least_stiffness_Nmm2(span);
       if (D == 3) {  // in the plane bent rods are as good as straight ones
         total_turn_rad_ +=
-            h * (span.rest_curvature_per_mm.norm() + span.tendon_S.moment_Nmm.norm() / least_stiffness_Nmm2(span));
+            h * (span.rest_curvature_per_mm.norm() + tendons.moment_Nmm.norm() / least_stiffness_Nmm2(span));
       }
       if (model_ == RodModel::reissner)
-        strain_ = std::max(strain_, (force + span.tendon_S.force_N.norm()) * compliance(span));
+        strain_ = std::max(strain_, (force + tendons.force_N.norm()) * compliance(span));
       if (since_cut > 0 && since_cut + growth > segment_growth) {
         segments_.push_back({arc + 1, end_arc});
         end_arc = arc + 1;
@@ -114,57 +104,47 @@ void BasicBoundaryValue<D>::cut_into_segments() {
 template <int D>
 void BasicBoundaryValue<D>::set_load(double factor) {
   factor_ = factor;
-  for (std::size_t i = 0; i < spans_.size(); ++i) {
-    const scene::Span& span = spans_[i];
-    SpanArcs& arcs = span_arcs_[i];
-    arcs.constants = arc_constants<D>(span, arcs_per_span_[i], model_, factor);
-    const auto load = [factor](const scene::Wrench& wrench) -> BasicWrench<double, D> {
-      return {factor * in_space_or_plane<D>(wrench.force_N), factor * turn_in_space_or_plane<D>(wrench.moment_Nmm)};
-    };
-    arcs.follower_load_S = load(span.follower_load_S);
-    arcs.fixed_load_B = load(span.fixed_load_B);
-    const double along_arc = factor * arcs.constants.length_mm;
-    arcs.follower_force_S_N = along_arc * in_space_or_plane<D>(span.follower_force_S_N_per_mm);
-    arcs.fixed_force_B_N = along_arc * in_space_or_plane<D>(span.fixed_force_B_N_per_mm);
-  }
+  for (std::size_t i = 0; i < spans_.size(); ++i) span_arcs_[i].set_load(spans_[i], model_, factor);
 }
 
-// March over arcs end_arc-1 .. first_arc; after_arc(index, screw, motion, state) sees each proximal end.
+// Arcs end_arc-1 .. first_arc of one span.
+template <int D>
+template <class Section, class T, class After>
+void BasicBoundaryValue<D>::march_span(const SpanArcs<D>& span, Section& section, int first_arc, int end_arc,
+                                       State<T>& state, After&& after_arc) const {
+  for (int arc = end_arc; arc-- > first_arc;) {
+    BasicScrew<T, D> screw;
+    BasicMotion<T, D> motion;
+    ArcForces<T, D> forces;
+    if (span.distributed) forces = span.forces(state.rotation_SB);
+    const ArcForces<T, D>* distributed = span.distributed ? &forces : nullptr;
+    const BasicWrench<T, D> distal = state.wrench;
+    if constexpr (Section::is_flat && sizeof(T) <= sizeof(Dual<3>)) {
+      motion = flat_step(law_, section, distributed, state.wrench, screw);
+    } else {
+      motion = law_step(law_, section, distributed, state.wrench, screw);
+    }
+    for (int axis = 0; axis < D; ++axis) {
+      state.rotation_SB.col(axis) = motion.rotate(Vector<T, D>(state.rotation_SB.col(axis)));
+    }
+    after_arc(arc, screw, motion, distal, state);
+  }
+  tendon_collapsed_ = tendon_collapsed_ || section.collapsed();
+}
+
+// March over arcs end_arc-1 .. first_arc; after_arc(index, screw, motion, distal wrench, state) sees each proximal end.
 template <int D>
 template <bool with_shear, class T, class After>
 void BasicBoundaryValue<D>::march_law(int first_arc, int end_arc, State<T>& state, After&& after_arc) const {
   auto span = std::upper_bound(span_arcs_.begin(), span_arcs_.end(), end_arc - 1,
-                               [](int arc, const SpanArcs& s) { return arc < s.first_arc; });
+                               [](int arc, const SpanArcs<D>& s) { return arc < s.first_arc; });
   while (end_arc > first_arc) {
     --span;
-    if (end_arc == span->end_arc) {
-      state.wrench.force_N += span->follower_load_S.force_N.template cast<T>() +
-                              state.rotation_SB * span->fixed_load_B.force_N.template cast<T>();
-      state.wrench.moment_Nmm += span->follower_load_S.moment_Nmm.template cast<T>();
-      if constexpr (D == 3)
-        state.wrench.moment_Nmm += state.rotation_SB * span->fixed_load_B.moment_Nmm.template cast<T>();
-      else state.wrench.moment_Nmm += span->fixed_load_B.moment_Nmm.template cast<T>();
-    }
-    for (int arc = end_arc; arc-- > std::max(first_arc, span->first_arc);) {
-      BasicScrew<T, D> screw;
-      BasicMotion<T, D> motion;
-      ArcForces<T, D> forces;
-      if (span->distributed) {
-        forces.follower_S_N = span->follower_force_S_N.template cast<T>();
-        forces.fixed_D_N = state.rotation_SB * span->fixed_force_B_N.template cast<T>();
-      }
-      const ArcForces<T, D>* distributed = span->distributed ? &forces : nullptr;
-      if constexpr (sizeof(T) <= sizeof(Dual<3>)) {
-        motion = flat_step<with_shear>(law_, span->constants, distributed, state.wrench, screw);
-      } else {
-        motion = law_step<with_shear>(law_, span->constants, distributed, state.wrench, screw);
-      }
-      for (int axis = 0; axis < D; ++axis) {
-        state.rotation_SB.col(axis) = motion.rotate(Vector<T, D>(state.rotation_SB.col(axis)));
-      }
-      after_arc(arc, screw, motion, state);
-    }
-    end_arc = std::max(first_arc, span->first_arc);
+    if (end_arc == span->end_arc) span->add_point_loads(state.rotation_SB, state.wrench);
+    const int first = std::max(first_arc, span->first_arc);
+    with_section<with_shear, T, D>(
+        span->constants, [&](auto& section) { march_span(*span, section, first, end_arc, state, after_arc); });
+    end_arc = first;
   }
 }
 
@@ -180,7 +160,7 @@ template <int D>
 void BasicBoundaryValue<D>::start_unloaded() {
   set_load(0);
   State<double> tip{Rotation::Identity(), {}};
-  const auto nothing = [](int, const auto&, const auto&, const auto&) {};
+  const auto nothing = [](int, const auto&, const auto&, const auto&, const auto&) {};
   State<double> clamp = tip;
   march(0, arc_count(), clamp, nothing);
   tip.rotation_SB = clamp.rotation_SB.transpose();
@@ -211,7 +191,8 @@ void BasicBoundaryValue<D>::evaluate_segment(std::size_t k, SegmentEquations& eq
     for (int i = 0; i < D; ++i) state.wrench.force_N[i].slope[turns + i] = force_unit;
     for (int i = 0; i < turns; ++i) state.wrench.moment_Nmm[i].slope[turns + D + i] = moment_unit;
   }
-  march(segments_[k].first_arc, segments_[k].end_arc, state, [](int, const auto&, const auto&, const auto&) {});
+  march(segments_[k].first_arc, segments_[k].end_arc, state,
+        [](int, const auto&, const auto&, const auto&, const auto&) {});
 
   const Rotation target_SB = k > 0 ? nodes_[k - 1].rotation_SB : Rotation::Identity();
   const Eigen::Matrix<Number, D, D> mismatch = state.rotation_SB * target_SB.transpose().template cast<Number>();
@@ -266,7 +247,7 @@ bool BasicBoundaryValue<D>::newton_one_segment(bool fresh_slope, double toleranc
     Turn<double, D> residual;
     if (fresh_slope) {
       State<double> state = nodes_[0];
-      march(0, arc_count(), state, [](int, const auto&, const auto&, const auto&) {});
+      march(0, arc_count(), state, [](int, const auto&, const auto&, const auto&, const auto&) {});
       residual = sine_vector<double>(state.rotation_SB);
       equations.mismatch_is_small = is_small<D>(state.rotation_SB);
       if (std::isfinite(last)) slope_ += (residual - last_residual - slope_ * step) * step.transpose() / (last * last);
@@ -361,22 +342,21 @@ typename BasicBoundaryValue<D>::Orientation BasicBoundaryValue<D>::orientation(b
 // Arcs, poses and the base wrench from the nodes.
 template <int D>
 scene::Status BasicBoundaryValue<D>::finish(bool solved) {
-  if (!solved) return scene::Status::load_step_too_small;
+  if (!solved) return failure_;
   State<double> state;
   for (std::size_t k = segments_.size(); k-- > 0;) {
     state = nodes_[k];
     march(segments_[k].first_arc, segments_[k].end_arc, state,
-          [this](int arc, const auto& screw, const auto& motion, const auto&) {
-            arcs_[static_cast<std::size_t>(arc)].screw = screw;
-            motions_[static_cast<std::size_t>(arc)] = motion;
+          [this](int index, const auto& screw, const auto& motion, const auto& distal, const auto&) {
+            const auto arc = static_cast<std::size_t>(index);
+            arcs_[arc].screw = screw;
+            motions_[arc] = motion;
+            distal_wrenches_S_[arc] = distal;
           });
   }
-  const scene::Wrench& tendon = spans_.front().tendon_S;
-  base_wrench_ = {state.wrench.force_N + in_space_or_plane<D>(tendon.force_N),
-                  state.wrench.moment_Nmm + turn_in_space_or_plane<D>(tendon.moment_Nmm)};
   poses_.front() = {};
   for (std::size_t k = 0; k < arcs_.size(); ++k) poses_[k + 1] = poses_[k].then(motions_[k]);
-  const bool finite = poses_.back().position_B_mm.allFinite() && base_wrench_.moment_Nmm.allFinite();
+  const bool finite = poses_.back().position_B_mm.allFinite() && state.wrench.moment_Nmm.allFinite();
   if (!finite) message_ = "a pose or wrench is not finite";
   return finite ? scene::Status::converged : scene::Status::not_finite;
 }
@@ -423,19 +403,22 @@ BasicBoundaryValue<3> BasicBoundaryValue<D>::in_space() const {
   return rod;
 }
 
+bool agree(const Stability& a, const Stability& b) {
+  return a.conjugate_points == b.conjugate_points && std::abs(a.log_determinant - b.log_determinant) < 0.25;
+}
+
 template <>
-std::optional<bool> BasicBoundaryValue<2>::stable() const {
-  return in_space().stable();
+Stability BasicBoundaryValue<2>::stability() const {
+  return in_space().stability();
 }
 
 // Fields of small motions that leave the tip free, started there with three turns of it, marched to the clamp and
 // made the identity at each arc's end: their turn over one arc has a negative eigenvalue for each conjugate point in
 // it.
 template <>
-std::optional<bool> BasicBoundaryValue<3>::stable() const {
+Stability BasicBoundaryValue<3>::stability() const {
   using Number = Dual<3>;
-  int conjugate_points = 0;
-  double nearest = 1;  // eigenvalue over the last arc: 0 at a conjugate point at the clamp
+  Stability result;
   State<Number> state;
   Eigen::Matrix<double, 6, 3> wrench_slopes = Eigen::Matrix<double, 6, 3>::Zero();
   for (std::size_t k = segments_.size(); k-- > 0;) {
@@ -452,33 +435,33 @@ std::optional<bool> BasicBoundaryValue<3>::stable() const {
       }
     };
     set(state, nodes_[k]);
-    march(segments_[k].first_arc, segments_[k].end_arc, state, [&](int, const auto&, const auto&, State<Number>& s) {
-      State<double> value;
-      Matrix3d turn;
-      Eigen::Matrix<double, 6, 3> slopes;
-      for (int i = 0; i < 3; ++i) {
-        for (int axis = 0; axis < 3; ++axis) value.rotation_SB(i, axis) = s.rotation_SB(i, axis).value;
-        value.wrench.force_N[i] = s.wrench.force_N[i].value;
-        value.wrench.moment_Nmm[i] = s.wrench.moment_Nmm[i].value;
-        slopes.row(i) = s.wrench.force_N[i].slope.matrix().transpose();
-        slopes.row(3 + i) = s.wrench.moment_Nmm[i].slope.matrix().transpose();
-      }
-      for (int field = 0; field < 3; ++field) {
-        Matrix3d slope;
-        for (int i = 0; i < 3; ++i) {
-          for (int axis = 0; axis < 3; ++axis) slope(i, axis) = s.rotation_SB(i, axis).slope[field];
-        }
-        turn.col(field) = -sine_vector<double>(Matrix3d(slope * value.rotation_SB.transpose()));
-      }
-      const auto eigenvalues = turn.eigenvalues().real().eval();
-      conjugate_points += static_cast<int>((eigenvalues.array() < 0).count());
-      nearest = eigenvalues.cwiseAbs().minCoeff();
-      wrench_slopes = slopes * turn.inverse();
-      set(s, value);
-    });
+    march(segments_[k].first_arc, segments_[k].end_arc, state,
+          [&](int, const auto&, const auto&, const auto&, State<Number>& s) {
+            State<double> value;
+            Matrix3d turn;
+            Eigen::Matrix<double, 6, 3> slopes;
+            for (int i = 0; i < 3; ++i) {
+              for (int axis = 0; axis < 3; ++axis) value.rotation_SB(i, axis) = s.rotation_SB(i, axis).value;
+              value.wrench.force_N[i] = s.wrench.force_N[i].value;
+              value.wrench.moment_Nmm[i] = s.wrench.moment_Nmm[i].value;
+              slopes.row(i) = s.wrench.force_N[i].slope.matrix().transpose();
+              slopes.row(3 + i) = s.wrench.moment_Nmm[i].slope.matrix().transpose();
+            }
+            for (int field = 0; field < 3; ++field) {
+              Matrix3d slope;
+              for (int i = 0; i < 3; ++i) {
+                for (int axis = 0; axis < 3; ++axis) slope(i, axis) = s.rotation_SB(i, axis).slope[field];
+              }
+              turn.col(field) = -sine_vector<double>(Matrix3d(slope * value.rotation_SB.transpose()));
+            }
+            result.conjugate_points += static_cast<int>((turn.eigenvalues().real().array() < 0).count());
+            result.log_determinant += std::log(std::abs(turn.determinant()));
+            wrench_slopes = slopes * turn.inverse();
+            set(s, value);
+          });
   }
-  if (!wrench_slopes.allFinite() || nearest < 1e-9) return std::nullopt;
-  return conjugate_points == 0;
+  if (!wrench_slopes.allFinite()) result.log_determinant = std::numeric_limits<double>::quiet_NaN();
+  return result;
 }
 
 template class BasicBoundaryValue<2>;

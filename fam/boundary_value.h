@@ -52,6 +52,16 @@ constexpr double load_step_tolerance = 1e-6;  // of Newton on the way to the ful
 constexpr double newton_curvature = 30;
 constexpr double tightest_newton_tolerance = 1e-13;
 
+// Conjugate points between the tip and the clamp, as the arcs show them, and the logarithm of the size of the
+// determinant of the small turns at the clamp over those of the free tip: 0 for the unloaded rod, -infinity where an
+// equilibrium becomes critical.
+struct Stability {
+  int conjugate_points = 0;
+  double log_determinant = 0;
+};
+// Two resolutions of one rod that tell the same: the determinants are closer than a quarter.
+bool agree(const Stability& a, const Stability& b);
+
 // In space, D = 3, or for rods in the x-y plane, D = 2 (spans with nothing out of it): 1 unknown, 4 more with each
 // further segment. A planar rod may still buckle out of its plane, so its stability is judged in space all the same.
 template <int D>
@@ -70,15 +80,17 @@ class BasicBoundaryValue {
   int arc_count() const { return static_cast<int>(arcs_.size()); }
   const std::vector<BasicArc<D>>& arcs() const { return arcs_; }
   const std::vector<BasicPose<D>>& poses() const { return poses_; }
-  const BasicWrench<double, D>& base_wrench() const { return base_wrench_; }
+  // What dense output needs (shape.h), after a converged run.
+  SolvedRod<D> solved() const { return {span_arcs_, arcs_, poses_, distal_wrenches_S_, law_, model_}; }
   int segment_count() const { return static_cast<int>(segments_.size()); }
   int load_steps() const { return load_steps_; }
   int newton_steps() const { return newton_steps_; }
+  double load_factor() const { return factor_; }  // reached
   const std::string& message() const { return message_; }
 
-  // Whether the equilibrium is a minimum of the energy: no conjugate point between the tip and the clamp. Only for
-  // fixed forces, gravity and tendons (the caller's to check); empty where a conjugate point lies at the clamp.
-  std::optional<bool> stable() const;
+  // Of the equilibrium, a minimum of the energy if it has no conjugate point. Only for fixed forces, gravity and
+  // tendons (the caller's to check).
+  Stability stability() const;
   // Whether the loads are too small for a second equilibrium; then the one found is stable.
   bool one_equilibrium() const;
 
@@ -95,13 +107,6 @@ class BasicBoundaryValue {
     BasicWrench<T, D> wrench;
   };
   using Rotation = Eigen::Matrix<double, D, D>;
-  struct SpanArcs {
-    BasicArcConstants<D> constants;
-    BasicWrench<double, D> follower_load_S, fixed_load_B;   // at the span's distal end, at the current load
-    Vector<double, D> follower_force_S_N, fixed_force_B_N;  // distributed, times the arc length
-    bool distributed;
-    int first_arc, end_arc;
-  };
   struct Orientation {  // determinant of the equations' derivatives at a load
     double factor = 0;
     double log_size = 0;
@@ -139,10 +144,14 @@ class BasicBoundaryValue {
   std::optional<double> try_step(double to, BranchWatch& watch);
   bool stays_on_branch(double step, BranchWatch& watch);
   bool gives_up(double step);
+  scene::Status failure_ = scene::Status::load_step_too_small;
   bool grow_load();
   scene::Status finish(bool solved);
   template <class T, class After>
   void march(int first_arc, int end_arc, State<T>& state, After&& after_arc) const;
+  template <class Section, class T, class After>
+  void march_span(const SpanArcs<D>& span, Section& section, int first_arc, int end_arc, State<T>& state,
+                  After&& after_arc) const;
   template <bool with_shear, class T, class After>
   void march_law(int first_arc, int end_arc, State<T>& state, After&& after_arc) const;
   template <int N>
@@ -160,7 +169,7 @@ class BasicBoundaryValue {
   double total_turn_rad_ = 0;
   double strain_ = 0;  // bound on stretch and shear
 
-  std::vector<SpanArcs> span_arcs_;
+  std::vector<SpanArcs<D>> span_arcs_;
   std::vector<Segment> segments_;     // clamp to tip
   std::vector<State<double>> nodes_;  // at the distal end of each segment
   BandSystem<turns + unknowns - 1, 2 * unknowns - turns - 1> system_;
@@ -173,16 +182,17 @@ class BasicBoundaryValue {
   std::vector<BasicArc<D>> arcs_;
   std::vector<BasicMotion<double, D>> motions_;
   std::vector<BasicPose<D>> poses_;
-  BasicWrench<double, D> base_wrench_;
+  std::vector<BasicWrench<double, D>> distal_wrenches_S_;
+  mutable bool tendon_collapsed_ = false;  // in the last march
   int load_steps_ = 0;
   int newton_steps_ = 0;
   std::string message_;
 };
 
 template <>
-std::optional<bool> BasicBoundaryValue<2>::stable() const;
+Stability BasicBoundaryValue<2>::stability() const;
 template <>
-std::optional<bool> BasicBoundaryValue<3>::stable() const;
+Stability BasicBoundaryValue<3>::stability() const;
 
 using BoundaryValue = BasicBoundaryValue<3>;
 

@@ -15,7 +15,7 @@ struct Dual {
   double value;
   Slope slope;
 
-  Dual() : value(0), slope(Slope::Zero()) {}
+  Dual() {}                                           // NOLINT: not set, as a double is not
   Dual(double v) : value(v), slope(Slope::Zero()) {}  // NOLINT: constants mix with duals
   Dual(double v, const Slope& s) : value(v), slope(s) {}
 
@@ -61,7 +61,7 @@ struct NumTraits<fam::Dual<N>> : NumTraits<double> {
     IsComplex = 0,
     IsInteger = 0,
     IsSigned = 1,
-    RequireInitialization = 1,
+    RequireInitialization = 0,
     ReadCost = N,
     AddCost = N,
     MulCost = 3 * N

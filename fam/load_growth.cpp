@@ -74,7 +74,7 @@ bool BasicBoundaryValue<D>::stays_on_branch(double step, BranchWatch& watch) {
   const double size = (now.negative == watch.last.negative ? 1 : -1) * std::exp(now.log_size - watch.last.log_size);
   if (!(size > 0.8)) now = orientation(true);
   if (watch.determinant && now.negative != watch.last.negative) return false;
-  const bool falls = watch.stability && stable() == false;
+  const bool falls = watch.stability && stability().conjugate_points > 0;
   if (falls && !(watch.may_fall && step <= smallest_bifurcation_step)) return false;
   watch.stability = watch.stability && !falls;
   watch.before = watch.last;
@@ -82,13 +82,16 @@ bool BasicBoundaryValue<D>::stays_on_branch(double step, BranchWatch& watch) {
   return true;
 }
 
-// Whether load steps this short, or the work done, are the end of it; message_ says so.
+// Whether load steps this short, or the work done, are the end of it; failure_ and message_ say so.
 template <int D>
 bool BasicBoundaryValue<D>::gives_up(double step) {
   const long long marched = static_cast<long long>(newton_steps_) * arc_count();
   const bool exhausted =
       marched > std::max<long long>(most_arcs_marched, static_cast<long long>(growth_passes) * arc_count());
   if (!exhausted && step >= smallest_load_step) return false;
+  failure_ = tendon_collapsed_ ? scene::Status::tendon_collapsed
+             : exhausted       ? scene::Status::work_limit
+                               : scene::Status::load_step_too_small;
   std::ostringstream text;
   if (exhausted) text << "work limit: " << marched << " arcs marched and only ";
   else text << "the load step fell below " << smallest_load_step << " at ";
@@ -103,6 +106,7 @@ bool BasicBoundaryValue<D>::grow_load() {
   start_unloaded();
   load_steps_ = 0;
   if (!newton(newton_tolerance_)) {
+    failure_ = scene::Status::not_converged;
     message_ = "Newton did not converge at no load";
     return false;
   }

@@ -6,11 +6,6 @@ namespace fam {
 namespace {
 
 template <int D>
-BasicWrench<double, D> to_section(const scene::Wrench& wrench) {
-  return {in_space_or_plane<D>(wrench.force_N), turn_in_space_or_plane<D>(wrench.moment_Nmm)};
-}
-
-template <int D>
 constexpr const ArcForces<double, D>* no_forces = nullptr;
 
 // The whole of a published arc as motions for the wrench and the pose at its ends.
@@ -36,8 +31,7 @@ BasicMarch<D>::BasicMarch(std::span<const scene::Span> spans, std::span<const in
   int first_arc = 0;
   spans_.reserve(spans.size());
   for (std::size_t i = 0; i < spans.size(); ++i) {
-    spans_.push_back({arc_constants<D>(spans[i], arcs_per_span[i], model), first_arc, arcs_per_span[i],
-                      to_section<D>(spans[i].follower_load_S), to_section<D>(spans[i].tendon_S)});
+    spans_.emplace_back(spans[i], model, first_arc, arcs_per_span[i]);
     first_arc += arcs_per_span[i];
   }
   arcs_.resize(static_cast<std::size_t>(first_arc));
@@ -45,35 +39,49 @@ BasicMarch<D>::BasicMarch(std::span<const scene::Span> spans, std::span<const in
   poses_.resize(arcs_.size() + 1);
 }
 
-// Tip to clamp: step(constants, wrench, arc) sets the arc and the wrench at its proximal end and returns its motion.
+// Tip to clamp: march_span(span, wrench) marches the arcs of a span and leaves the wrench at its proximal end.
 template <int D>
-template <class Step>
-void BasicMarch<D>::march(Step&& step) {
+template <class MarchSpan>
+void BasicMarch<D>::march(MarchSpan&& march_span) {
   BasicWrench<double, D> wrench;
   for (auto span = spans_.rbegin(); span != spans_.rend(); ++span) {
-    wrench = wrench + span->load_S;
-    for (int k = span->first_arc + span->arc_count; k-- > span->first_arc;) {
-      const auto arc = static_cast<std::size_t>(k);
-      motions_[arc] = step(span->constants, wrench, arcs_[arc]);
-    }
+    wrench = wrench + span->follower_load_S;
+    march_span(*span, wrench);
   }
-  base_wrench_ = wrench + spans_.front().tendon_S;
+  base_wrench_ = wrench;
+}
+
+// Calls step(arc, wrench) for each arc of a span, tip to clamp.
+template <class Wrench, class Span, class Step>
+void for_arcs(const Span& span, Wrench& wrench, std::vector<Wrench>& record, Step&& step) {
+  for (int k = span.end_arc; k-- > span.first_arc;) {
+    const auto arc = static_cast<std::size_t>(k);
+    if (!record.empty()) record[arc] = wrench;
+    step(arc, wrench);
+  }
 }
 
 template <int D>
 template <bool with_shear>
 FAM_FLATTEN void BasicMarch<D>::run_law() {
-  if (law_ == Law::midpoint) {
-    march([](const auto& constants, auto& wrench, auto& arc) {
-      return midpoint_step<with_shear>(constants, no_forces<D>, wrench, arc.screw);
+  const auto with = [&](auto&& law) {
+    march([&](const SpanArcs<D>& span, auto& wrench) {
+      with_section<with_shear, double, D>(span.constants, [&](auto& section) {
+        for_arcs(span, wrench, distal_wrenches_S_,
+                 [&](std::size_t arc, auto& w) { motions_[arc] = law(section, w, arcs_[arc].screw); });
+        tendon_collapsed_ = tendon_collapsed_ || section.collapsed();
+      });
     });
+  };
+  if (law_ == Law::midpoint) {
+    with([](auto& section, auto& wrench, auto& screw) { return midpoint_step(section, no_forces<D>, wrench, screw); });
   } else if (law_ == Law::fourth_order) {
-    march([](const auto& constants, auto& wrench, auto& arc) {
-      return fourth_order_step<with_shear>(constants, no_forces<D>, wrench, arc.screw);
+    with([](auto& section, auto& wrench, auto& screw) {
+      return fourth_order_step(section, no_forces<D>, wrench, screw);
     });
   } else {
-    march([](const auto& constants, auto& wrench, auto& arc) {
-      return sixth_order_step<with_shear>(constants, no_forces<D>, wrench, arc.screw);
+    with([](auto& section, auto& wrench, auto& screw) {
+      return sixth_order_step(section, no_forces<D>, wrench, screw);
     });
   }
   place_arcs();
@@ -89,13 +97,14 @@ void BasicMarch<D>::place_arcs() {
 template <int D>
 bool BasicMarch<D>::run_published() {
   if constexpr (D == 3) {
-    march([this](const ArcConstants& constants, SectionWrench& wrench, Arc& arc) {
-      if (!published_arc(constants, wrench, twist_order_, arc) && failed_arc_ < 0) {
-        failed_arc_ = static_cast<int>(&arc - arcs_.data());
-      }
-      const ArcMotion motion(arc);
-      wrench = motion.carry(wrench);
-      return motion.screw;
+    march([this](const SpanArcs<D>& span, SectionWrench& wrench) {
+      for_arcs(span, wrench, distal_wrenches_S_, [&](std::size_t k, SectionWrench& w) {
+        if (!published_arc(span.constants, w, twist_order_, arcs_[k]) && failed_arc_ < 0)
+          failed_arc_ = static_cast<int>(k);
+        const ArcMotion motion(arcs_[k]);
+        w = motion.carry(w);
+        motions_[k] = motion.screw;
+      });
     });
     poses_.front() = {};
     for (std::size_t k = 0; k < arcs_.size(); ++k) {
@@ -109,6 +118,7 @@ bool BasicMarch<D>::run_published() {
 template <int D>
 scene::Status BasicMarch<D>::run() noexcept {
   failed_arc_ = -1;
+  tendon_collapsed_ = false;
   if (law_ == Law::published) {
     if (!run_published()) return scene::Status::arc_not_converged;
   } else if (model_ == RodModel::reissner) {
@@ -119,6 +129,7 @@ scene::Status BasicMarch<D>::run() noexcept {
   const BasicPose<D>& tip = poses_.back();
   const bool finite = tip.position_B_mm.allFinite() && tip.rotation_BS.allFinite() &&
                       base_wrench_.force_N.allFinite() && base_wrench_.moment_Nmm.allFinite();
+  if (tendon_collapsed_) return scene::Status::tendon_collapsed;
   return finite ? scene::Status::converged : scene::Status::not_finite;
 }
 

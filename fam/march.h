@@ -2,7 +2,7 @@
 // at its distal end and hands the wrench on. One pass, cost linear in the arcs, no iteration, no heap allocation.
 #pragma once
 
-#include "fam/arc_law.h"
+#include "fam/span_arcs.h"
 
 #include "scene/equilibrium.h"
 #include "scene/span.h"
@@ -11,6 +11,18 @@
 #include <vector>
 
 namespace fam {
+
+// A solved rod: what shape.h reads. The views last as long as their solver, until it solves again.
+template <int D>
+struct SolvedRod {
+  std::span<const SpanArcs<D>> spans;  // clamp to tip, as all here
+  std::span<const BasicArc<D>> arcs;
+  std::span<const BasicPose<D>> poses;                        // of the arcs' ends, one more than arcs
+  std::span<const BasicWrench<double, D>> distal_wrenches_S;  // total, at each arc's distal end, its loads included
+  Law law;
+  RodModel model;
+  TwistOrder twist_order = TwistOrder::bend_twist;
+};
 
 // In space, D = 3, or for rods in the x-y plane, D = 2 (spans with nothing out of it; Law::published in space only).
 template <int D>
@@ -21,42 +33,37 @@ class BasicMarch {
   BasicMarch(std::span<const scene::Span> spans, std::span<const int> arcs_per_span, Law law, RodModel model,
              TwistOrder twist_order = TwistOrder::bend_twist);
 
-  // Solves. converged, arc_not_converged (failed_arc() says which) or not_finite.
+  // Solves. converged, arc_not_converged (failed_arc() says which), tendon_collapsed or not_finite.
   scene::Status run() noexcept;
 
   int arc_count() const { return static_cast<int>(arcs_.size()); }
   // Clamp to tip, after run(): arcs, and the poses of their ends (one more than arcs).
   const std::vector<BasicArc<D>>& arcs() const { return arcs_; }
   const std::vector<BasicPose<D>>& poses() const { return poses_; }
-  // Internal force and moment at the clamp, tendons included; the clamp's section frame is the base frame.
-  const BasicWrench<double, D>& base_wrench() const { return base_wrench_; }
   int failed_arc() const { return failed_arc_; }
+  // Dense output (shape.h) needs the arcs' wrenches: kept from the next run on, where asked for.
+  void keep_wrenches() { distal_wrenches_S_.resize(arcs_.size()); }
+  SolvedRod<D> solved() const { return {spans_, arcs_, poses_, distal_wrenches_S_, law_, model_, twist_order_}; }
 
  private:
-  struct SpanArcs {
-    BasicArcConstants<D> constants;
-    int first_arc;
-    int arc_count;
-    BasicWrench<double, D> load_S;    // follower loads at the span's distal end
-    BasicWrench<double, D> tendon_S;  // internal wrench of the tendons in the span
-  };
-
-  template <class Step>
-  void march(Step&& step);
+  template <class MarchSpan>
+  void march(MarchSpan&& march_span);
   template <bool with_shear>
   void run_law();
   bool run_published();
   void place_arcs();
 
-  std::vector<SpanArcs> spans_;
+  std::vector<SpanArcs<D>> spans_;
   std::vector<BasicArc<D>> arcs_;
   std::vector<BasicMotion<double, D>> motions_;  // of the arcs
   std::vector<BasicPose<D>> poses_;
+  std::vector<BasicWrench<double, D>> distal_wrenches_S_;  // of the arcs; empty: not kept
   BasicWrench<double, D> base_wrench_;
   Law law_;
   RodModel model_;
   TwistOrder twist_order_;
   int failed_arc_ = -1;
+  bool tendon_collapsed_ = false;
 };
 
 using March = BasicMarch<3>;

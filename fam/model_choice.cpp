@@ -1,6 +1,7 @@
 #include "fam/model_choice.h"
 
 #include "fam/span_stiffness.h"
+#include "scene/span_facts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,50 +29,9 @@ double shear_bound_mm(std::span<const Span> spans) {
     double compliance = 0;
     if (span->stiffness.axial_N) compliance = 1 / *span->stiffness.axial_N;
     if (span->stiffness.shear_N) compliance = std::max(compliance, 1 / span->stiffness.shear_N->minCoeff());
-    bound += span->length_mm() * compliance * (force + span->tendon_S.force_N.norm());
+    bound += span->length_mm() * compliance * (force + straight_tendons(*span).force_N.norm());
   }
   return 3 * bound;
-}
-
-// The vectors of a span that must lie in the plane, and those that must be normal to it.
-std::vector<Vector3d> vectors_in_plane(const Span& span) {
-  return {span.follower_load_S.force_N, span.fixed_load_B.force_N, span.follower_force_S_N_per_mm,
-          span.fixed_force_B_N_per_mm};
-}
-std::vector<Vector3d> turns_in_plane(const Span& span) {
-  return {span.follower_load_S.moment_Nmm, span.fixed_load_B.moment_Nmm, span.tendon_S.moment_Nmm,
-          span.rest_curvature_per_mm};
-}
-
-// The direction (y, z) of the plane that one vector or turn asks for; zero: any.
-Vector2d of_turn(const Vector3d& turn) {
-  return {turn[2], -turn[1]};
-}
-
-bool same_both_ways(const scene::Stiffness& stiffness) {
-  return stiffness.bending_Nmm2[0] == stiffness.bending_Nmm2[1] &&
-         (!stiffness.shear_N || (*stiffness.shear_N)[0] == (*stiffness.shear_N)[1]);
-}
-
-// Empty where the directions differ; (1, 0) where none is asked for.
-std::optional<Vector2d> common_direction(std::span<const Span> spans) {
-  Vector2d common = Vector2d::Zero();
-  const auto agrees = [&](const Vector2d& direction) {
-    const double size = direction.norm();
-    if (size == 0) return true;
-    if (common.isZero(0)) common = direction / size;
-    return std::abs(common[0] * direction[1] - common[1] * direction[0]) <=
-           2 * std::numeric_limits<double>::epsilon() * size;
-  };
-  for (const Span& span : spans) {
-    for (const Vector3d& vector : vectors_in_plane(span)) {
-      if (!agrees(vector.tail<2>())) return std::nullopt;
-    }
-    for (const Vector3d& turn : turns_in_plane(span)) {
-      if (turn[0] != 0 || !agrees(of_turn(turn))) return std::nullopt;
-    }
-  }
-  return common.isZero(0) ? Vector2d(1, 0) : common;
 }
 
 Span turned(const Span& span, const Matrix3d& rotation_PB, bool swap) {
@@ -80,10 +40,12 @@ Span turned(const Span& span, const Matrix3d& rotation_PB, bool swap) {
     v = rotation_PB * v;
     (is_turn ? v[1] : v[2]) = 0;
   };
-  for (scene::Wrench* wrench : {&result.follower_load_S, &result.fixed_load_B, &result.tendon_S}) {
+  for (scene::Wrench* wrench : {&result.follower_load_S, &result.fixed_load_B}) {
     turn(wrench->force_N, false);
     turn(wrench->moment_Nmm, true);
   }
+  result.fixed_force_arms_BS_Nmm = rotation_PB * result.fixed_force_arms_BS_Nmm * rotation_PB.transpose();
+  for (scene::SectionTendon& tendon : result.tendons) tendon.arm_S_mm = rotation_PB * tendon.arm_S_mm;
   turn(result.follower_force_S_N_per_mm, false);
   turn(result.fixed_force_B_N_per_mm, false);
   turn(result.rest_curvature_per_mm, true);
@@ -97,17 +59,13 @@ Span turned(const Span& span, const Matrix3d& rotation_PB, bool swap) {
 }  // namespace
 
 std::optional<PlanarScene> in_one_plane(std::span<const Span> spans) {
-  const std::optional<Vector2d> direction = common_direction(spans);
+  const std::optional<Vector2d> direction = scene::plane_direction(spans);
   if (!direction) return std::nullopt;
   const double c = (*direction)[0], s = (*direction)[1];
-  const bool any_plane =
-      std::all_of(spans.begin(), spans.end(), [](const Span& x) { return same_both_ways(x.stiffness); });
-  if (!any_plane && c != 0 && s != 0) return std::nullopt;
   PlanarScene scene;
   scene.rotation_BP << 1, 0, 0, 0, c, -s, 0, s, c;
-  for (const Span& span : spans) {
-    scene.spans.push_back(turned(span, scene.rotation_BP.transpose(), !any_plane && c == 0));
-  }
+  const bool swap = c == 0 && !scene::is_isotropic(spans);
+  for (const Span& span : spans) scene.spans.push_back(turned(span, scene.rotation_BP.transpose(), swap));
   return scene;
 }
 
@@ -140,11 +98,16 @@ std::vector<int> first_arcs(std::span<const Span> spans, bool planar) {
   for (std::size_t i = spans.size(); i-- > 0;) {
     const Span& span = spans[i];
     force += add_force_N(span);
-    moment += span.follower_load_S.moment_Nmm.norm() + span.fixed_load_B.moment_Nmm.norm();
+    moment += load_moment_Nmm(span);
+    const double bending_Nmm2 = span.stiffness.bending_Nmm2.minCoeff();
     const double by_moment = planar ? 0 : moment * moment_growth_per_Nmm2(span);
     const double growth = span.length_mm() * (std::sqrt(force / least_stiffness_Nmm2(span)) + by_moment);
-    const double wanted = std::ceil(growth / 1.5);  // NaN where numbers overflow
-    arcs[i] = wanted < 1000 ? std::max(1, static_cast<int>(wanted)) : 1000;
+    const double turn_rad = span.length_mm() * (span.rest_curvature_per_mm.norm() +
+                                                (moment + straight_tendons(span).moment_Nmm.norm()) / bending_Nmm2);
+    // Where no force acts the strain is constant, or an Euler top's, and turns matter little.
+    const double by_turn = force > 0 ? turn_rad / first_turn_rad : 0;
+    const double wanted = std::ceil(std::max(growth / first_growth, by_turn));  // NaN where numbers overflow
+    arcs[i] = wanted < most_first_arcs ? std::max(1, static_cast<int>(wanted)) : most_first_arcs;
   }
   return arcs;
 }

@@ -12,9 +12,8 @@
 
 namespace fam {
 
-// A scene whose loads, rest curvatures and tendons all lie in one plane through the undeformed axis: its spans turned
-// about the axis into the x-y plane, and the rotation back, from the turned frame P to the base frame. Any plane if all
-// sections have EI_y = EI_z and equal shear stiffnesses, else the x-y or the x-z plane.
+// A scene that lies in one plane (scene::plane_direction): its spans turned about the axis into the x-y plane, and the
+// rotation back, from the turned frame P to the base frame.
 struct PlanarScene {
   std::vector<scene::Span> spans;
   Matrix3d rotation_BP = Matrix3d::Identity();
@@ -30,8 +29,12 @@ struct RodChoice {
 };
 RodChoice choose_rod(std::span<const scene::Span> spans, RodModel wanted, double tolerance_mm);
 
-// Arcs of each span to start with: one where the strain is constant, else as many as it takes that no arc sees more
-// than a growth of 1.5: sqrt(force / EI) h and, in space, moment_growth_per_Nmm2 times the moment and h.
+// Arcs of each span to start with: as many as it takes that no arc sees more growth than first_growth, sqrt(force / EI)
+// h and, in space, moment_growth_per_Nmm2 times the moment and h, and that none turns farther by rest curvature,
+// tendons and moments than first_turn_rad where a force acts.
+constexpr double first_growth = 1.5;
+constexpr double first_turn_rad = 2;
+constexpr int most_first_arcs = 1000;  // of a span
 std::vector<int> first_arcs(std::span<const scene::Span> spans, bool planar);
 
 // The largest growth sqrt(force / EI) h that an arc sees, EI the least stiffness of its span.

@@ -1,6 +1,7 @@
 #include "fam/reach.h"
 
 #include "fam/model_choice.h"
+#include "fam/span_stiffness.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +20,9 @@ struct ArcMoment {
       : strain_per_mm(turn_rad / h_mm),
         stiffness_Nmm2(span.stiffness.torsion_Nmm2, span.stiffness.bending_Nmm2[0], span.stiffness.bending_Nmm2[1]) {
     const Vector3d elastic_Nmm = stiffness_Nmm2.cwiseProduct(strain_per_mm - span.rest_curvature_per_mm);
-    moment_Nmm = elastic_Nmm - span.tendon_S.moment_Nmm;
-    scale = (elastic_Nmm.norm() + span.tendon_S.moment_Nmm.norm()) * strain_per_mm.norm();
+    const Vector3d tendons_Nmm = straight_tendons(span).moment_Nmm;
+    moment_Nmm = elastic_Nmm - tendons_Nmm;
+    scale = (elastic_Nmm.norm() + tendons_Nmm.norm()) * strain_per_mm.norm();
   }
 
   bool is_steady() const { return moment_Nmm.cross(strain_per_mm).norm() <= 1e-12 * scale; }

@@ -1,13 +1,17 @@
 #include "fam/solve.h"
 
+#include "fam/embedding.h"
 #include "fam/model_choice.h"
 #include "fam/reach.h"
+#include "fam/shape.h"
+#include "fam/stations.h"
 #include "scene/span_facts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <limits>
+#include <numbers>
 #include <sstream>
 
 namespace fam {
@@ -90,26 +94,6 @@ Prepared prepared(const std::vector<Span>& spans, const std::vector<int>& arcs, 
   return result;
 }
 
-Vector3d embedded(const Vector3d& v) {
-  return v;
-}
-Vector3d embedded(const Eigen::Vector2d& v) {
-  return {v[0], v[1], 0};
-}
-Vector3d embedded_turn(const Vector3d& v) {
-  return v;
-}
-Vector3d embedded_turn(const Turn<double, 2>& turn) {
-  return {0, 0, turn[0]};
-}
-
-template <int D>
-SectionPose in_base(const BasicPose<D>& pose, const Matrix3d& rotation_BP) {
-  Matrix3d rotation = Matrix3d::Identity();
-  rotation.topLeftCorner<D, D>() = pose.rotation_BS;
-  return {rotation_BP * rotation * rotation_BP.transpose(), rotation_BP * embedded(pose.position_B_mm)};
-}
-
 const std::string* message_of(const Prepared& prepared) {
   return std::visit(
       [](const auto& s) -> const std::string* {
@@ -122,11 +106,12 @@ const std::string* message_of(const Prepared& prepared) {
 // A march or a boundary value problem, solved.
 struct Run {
   Prepared prepared;
+  std::vector<int> arcs;  // of each span
   Status status;
 
-  Run(const std::vector<Span>& spans, const std::vector<int>& arcs, const Choice& choice, const Options& options,
+  Run(const std::vector<Span>& spans, std::vector<int> arcs_per_span, const Choice& choice, const Options& options,
       const Run* coarser = nullptr)
-      : prepared(fam::prepared(spans, arcs, choice, options)) {
+      : prepared(fam::prepared(spans, arcs_per_span, choice, options)), arcs(std::move(arcs_per_span)) {
     status = std::visit(
         [&](auto& solver) {
           if constexpr (requires { solver.run_from(solver); }) {
@@ -134,6 +119,8 @@ struct Run {
             if (coarser && coarser->status == Status::converged) {
               return solver.run_from(std::get<Solver>(coarser->prepared.solver));
             }
+          } else {
+            solver.keep_wrenches();
           }
           return solver.run();
         },
@@ -146,16 +133,6 @@ struct Run {
   bool marched() const { return message_of(prepared) == nullptr; }
 };
 
-// Arc lengths of the arc ends, clamp to tip, mm.
-std::vector<double> arc_ends_mm(const std::vector<Span>& spans, const std::vector<int>& arcs) {
-  std::vector<double> ends{0};
-  for (std::size_t i = 0; i < spans.size(); ++i) {
-    for (int k = 1; k < arcs[i]; ++k) ends.push_back(spans[i].start_mm + spans[i].length_mm() * k / arcs[i]);
-    ends.push_back(spans[i].end_mm);
-  }
-  return ends;
-}
-
 std::vector<int> times(std::vector<int> arcs, int factor) {
   for (int& count : arcs) count *= factor;
   return arcs;
@@ -165,51 +142,50 @@ double order(Law law) {
   return law == Law::sixth_order ? 6 : law == Law::fourth_order ? 4 : law == Law::midpoint ? 2 : 1;
 }
 
-// Largest distance between the first_count arc ends that two runs share.
-double distance_mm(const Run& a, const Run& b, int first_count) {
+// How far two solved rods are apart, at the ends and the middles of the first one's arcs.
+struct Distance {
+  double position_mm = 0;
+  double rotation_rad = 0;  // where follower loads act, which turn with the section: their directions
+};
+
+template <int D>
+bool is_loaded(const BasicWrench<double, D>& load) {
+  return !load.force_N.isZero(0) || !load.moment_Nmm.isZero(0);
+}
+
+template <int D>
+Distance distance(const SolvedRod<D>& a, const SolvedRod<D>& b) {
+  Distance largest;
+  for (std::size_t i = 0; i < a.spans.size(); ++i) {
+    const SpanArcs<D>&span = a.spans[i], &other = b.spans[i];
+    const int count = span.end_arc - span.first_arc, other_count = other.end_arc - other.first_arc;
+    for (int half = 1; half <= 2 * count; ++half) {
+      const int arc = (half - 1) / 2;
+      const double fraction = half / 2. - arc, there = half / 2. * other_count / count;
+      const int other_arc = std::min(other_count - 1, static_cast<int>(there));
+      const BasicPose<D> here = pose_in_arc(a, span, span.first_arc + arc, fraction);
+      const BasicPose<D> pose = pose_in_arc(b, other, other.first_arc + other_arc, there - other_arc);
+      largest.position_mm = std::max(largest.position_mm, (here.position_B_mm - pose.position_B_mm).norm());
+      const bool loaded = !span.follower_force_S_N.isZero(0) || (half == 2 * count && is_loaded(span.follower_load_S));
+      if (loaded) {
+        largest.rotation_rad =
+            std::max(largest.rotation_rad, (here.rotation_BS - pose.rotation_BS).norm() / std::numbers::sqrt2);
+      }
+    }
+  }
+  return largest;
+}
+
+Distance distance(const Run& a, const Run& b) {
   return std::visit(
       [&](const auto& solver) {
-        const auto& other = std::get<std::decay_t<decltype(solver)>>(b.prepared.solver);
-        const auto skip = [&](const auto& s) { return static_cast<std::size_t>(s.arc_count() / first_count); };
-        double largest = 0;
-        for (std::size_t k = 0; k <= static_cast<std::size_t>(first_count); ++k) {
-          largest = std::max(
-              largest,
-              (solver.poses()[k * skip(solver)].position_B_mm - other.poses()[k * skip(other)].position_B_mm).norm());
-        }
-        return largest;
+        return distance(solver.solved(), std::get<std::decay_t<decltype(solver)>>(b.prepared.solver).solved());
       },
       a.prepared.solver);
 }
 
 double round_off_mm(const std::vector<Span>& spans, const Run& run) {
   return 4 * std::numeric_limits<double>::epsilon() * spans.back().end_mm * std::sqrt(run.arc_count());
-}
-
-// Stations at the arc ends and, for pictures and for counting turns, between them: at least 40 intervals along the
-// rod and none that turns by more than half a radian.
-std::vector<scene::Station> stations_of(const Run& run, const std::vector<double>& ends_mm) {
-  constexpr int fewest_intervals = 40;
-  constexpr double largest_turn_rad = 0.5;
-  const int count = run.arc_count();
-  const std::vector<Arc> arcs = arcs_of(run.prepared);
-  const std::vector<SectionPose> poses = poses_of(run.prepared);
-  std::vector<scene::Station> stations{{}};
-  for (std::size_t k = 0; k + 1 < ends_mm.size(); ++k) {
-    const Arc& arc = arcs[k];
-    const double turn = arc.screw.rotation.norm() + std::abs(arc.twist_before_rad) + std::abs(arc.twist_after_rad);
-    const int for_turn = static_cast<int>(std::min(1e4, std::ceil(turn / largest_turn_rad)));
-    const int pieces = std::max({1, (fewest_intervals + count - 1) / count, for_turn});
-    for (int i = 1; i < pieces; ++i) {
-      const double fraction = static_cast<double>(i) / pieces;
-      const SectionPose pose = pose_on(arc, poses[k], fraction);
-      stations.push_back(
-          {ends_mm[k] + fraction * (ends_mm[k + 1] - ends_mm[k]), {pose.rotation_BS, pose.position_B_mm}});
-    }
-    const SectionPose& distal = poses[k + 1];
-    stations.push_back({ends_mm[k + 1], {distal.rotation_BS, distal.position_B_mm}});
-  }
-  return stations;
 }
 
 Equilibrium failure(const Run& run) {
@@ -221,6 +197,8 @@ Equilibrium failure(const Run& run) {
   } else if (run.status == Status::arc_not_converged) {
     result.message = "the bending angle of arc " + std::to_string(std::get<March>(run.prepared.solver).failed_arc()) +
                      " of " + arcs + " (from the clamp) was not found; more arcs make each one easier";
+  } else if (run.status == Status::tendon_collapsed) {
+    result.message = "a tendon's path has no length somewhere: |v + u x r| = 0, with " + arcs + " arcs";
   } else {
     result.message = "a pose or wrench overflowed with " + arcs + " arcs";
   }
@@ -244,29 +222,49 @@ Equilibrium too_long_for_series(double growth, double reach_rad) {
 
 // What a solve was asked for and how.
 struct Task {
+  const scene::Scene& scene;
   const std::vector<Span>& spans;
   const Options& options;
   Choice choice;
   double tolerance_mm;
 };
 
+// The sign of the energy's second variation, from the run and finer ones until two agree.
+template <int D>
+std::optional<bool> stable(const BasicBoundaryValue<D>& solver, const Task& task, const Run& run) {
+  if (solver.one_equilibrium()) return true;
+  Stability coarse = solver.stability();
+  const Run* last = &run;
+  std::optional<Run> fine;
+  for (int doublings = 0; doublings < most_stability_doublings; ++doublings) {
+    Run next(task.spans, times(last->arcs, 2), task.choice, task.options, last);
+    if (next.status != Status::converged) return std::nullopt;
+    const Stability finer = std::get<BasicBoundaryValue<D>>(next.prepared.solver).stability();
+    if (agree(coarse, finer)) return finer.conjugate_points == 0;
+    coarse = finer;
+    fine.emplace(std::move(next));
+    last = &*fine;
+  }
+  return std::nullopt;
+}
+
 // What the boundary value solver did, and whether its equilibrium is stable.
 template <int D>
-void report(const BasicBoundaryValue<D>& solver, const Task& task, Equilibrium& result) {
+void report(const BasicBoundaryValue<D>& solver, const Task& task, const Run& run, Equilibrium& result) {
   result.model.emplace_back("segments", solver.segment_count());
   result.model.emplace_back("load_steps", solver.load_steps());
   result.model.emplace_back("newton_iterations", solver.newton_steps());
-  if (scene::is_conservative(task.spans)) result.stable = solver.one_equilibrium() ? true : solver.stable();
+  if (scene::is_conservative(task.spans)) result.stable = stable(solver, task, run);
 }
+// No loads, or tendons alone: the energy is convex in the strains, and no load does work.
 template <int D>
-void report(const BasicMarch<D>&, const Task&, Equilibrium&) {}
+void report(const BasicMarch<D>&, const Task& task, const Run&, Equilibrium& result) {
+  if (scene::is_conservative(task.spans)) result.stable = true;
+}
 
-Equilibrium success(const Task& task, const Run& run, const std::vector<int>& arcs, double error_mm,
-                    const std::string& reason) {
+Equilibrium success(const Task& task, const Run& run, double error_mm, const std::string& reason) {
   Equilibrium result;
   result.status = Status::converged;
-  result.stations = stations_of(run, arc_ends_mm(task.spans, arcs));
-  result.tip_angle_rad = scene::total_angle_rad(result.stations);
   result.error_estimate_mm = error_mm;
   const std::vector<Arc> solved = arcs_of(run.prepared);
   const bool torsion = std::any_of(solved.begin(), solved.end(), [](const Arc& arc) {
@@ -274,7 +272,7 @@ Equilibrium success(const Task& task, const Run& run, const std::vector<int>& ar
   });
   result.model = {{"law", std::string(name(task.choice.law))},
                   {"arcs", run.arc_count()},
-                  {"planar", task.choice.plane || scene::is_planar(task.spans)},
+                  {"planar", scene::plane_direction(task.spans).has_value()},
                   {"torsion", torsion},
                   {"shear", task.choice.rod.model == RodModel::reissner},
                   {"solver", std::string(run.marched() ? "march" : "boundary value")},
@@ -282,52 +280,66 @@ Equilibrium success(const Task& task, const Run& run, const std::vector<int>& ar
                   {"reason", task.choice.reason + "; " + reason}};
   std::visit(
       [&](const auto& solver) {
-        result.base_force_B_N = run.prepared.rotation_BP * embedded(solver.base_wrench().force_N);
-        result.base_moment_B_Nmm = run.prepared.rotation_BP * embedded_turn(solver.base_wrench().moment_Nmm);
-        report(solver, task, result);
+        set_shape(result, task.scene, task.spans, solver.solved(), run.prepared.rotation_BP);
+        if (result.converged()) report(solver, task, run, result);
       },
       run.prepared.solver);
+  result.tip_angle_rad =
+      result.converged() ? scene::tip_angle_rad(result.stations, scene::plane_normal(task.spans)) : 0;
   return result;
 }
 
-double reach_rad(const Task& task, const Run& run, const std::vector<int>& arcs) {
-  return largest_reach_rad(task.spans, arcs, arcs_of(run.prepared), task.choice.plane.has_value());
+double reach_rad(const Task& task, const Run& run) {
+  return largest_reach_rad(task.spans, run.arcs, arcs_of(run.prepared), task.choice.plane.has_value());
 }
 
 Equilibrium solve_fixed(const Task& task) {
-  const std::vector<int> arcs = scene::cells_per_span(task.spans, task.options.arcs);
-  const Run run(task.spans, arcs, task.choice, task.options);
+  const Run run(task.spans, scene::cells_per_span(task.spans, task.options.arcs), task.choice, task.options);
   if (run.status != Status::converged) return failure(run);
-  const double growth = largest_growth(task.spans, arcs);
-  const double reach = reach_rad(task, run, arcs);
+  const double growth = largest_growth(task.spans, run.arcs);
+  const double reach = reach_rad(task, run);
   const bool resolved = growth <= resolved_growth && reach <= resolved_reach_rad;
   if (!resolved && task.choice.law == Law::sixth_order) return too_long_for_series(growth, reach);
   double error = 0;
   if (task.options.estimate_error) {
-    const Run twice(task.spans, times(arcs, 2), task.choice, task.options, &run);
+    const Run twice(task.spans, times(run.arcs, 2), task.choice, task.options, &run);
     const double factor = std::pow(2, order(task.choice.law));
     error = twice.status == Status::converged
-                ? factor / (factor - 1) * distance_mm(run, twice, run.arc_count()) + round_off_mm(task.spans, run)
+                ? factor / (factor - 1) * distance(run, twice).position_mm + round_off_mm(task.spans, run)
                 : std::numeric_limits<double>::infinity();
     if (!resolved) error = std::max(error, task.spans.back().end_mm);
   }
-  return success(task, run, arcs, error + task.choice.rod.left_out_mm, "number of arcs given");
+  return success(task, run, error + task.choice.rod.left_out_mm, "number of arcs given");
 }
 
 // The answer with more arcs, from that with fewer. Where that one is far off, or its arcs are too long to lead there,
 // the loads grow from nothing once more: it may lie on another branch.
-Run refined(const Task& task, const std::vector<int>& arcs, const Run& coarse, const std::vector<int>& coarse_arcs,
-            int first_count) {
+Run refined(const Task& task, const std::vector<int>& arcs, const Run& coarse) {
   const auto afresh = [&] { return Run(task.spans, arcs, task.choice, task.options); };
   if (coarse.marched() || coarse.status != Status::converged) return afresh();
-  if (reach_rad(task, coarse, coarse_arcs) > leading_reach_rad) return afresh();
+  if (reach_rad(task, coarse) > leading_reach_rad) return afresh();
   Run fine(task.spans, arcs, task.choice, task.options, &coarse);
   const bool near = fine.status == Status::converged &&
-                    distance_mm(coarse, fine, first_count) <= leading_distance * task.spans.back().end_mm;
+                    distance(coarse, fine).position_mm <= leading_distance * task.spans.back().end_mm;
   return near ? std::move(fine) : afresh();
 }
 
-// Runs with growing multiples of the first arcs, each compared with the one before at the ends of the first arcs.
+// Whether arcs twice as many cannot help: two runs failed at the same load, or the work is used up.
+bool is_the_end(const Run& last, const Run& run) {
+  if (run.status == Status::work_limit || run.status == Status::tendon_collapsed) return true;
+  if (last.status == Status::converged || last.marched()) return false;
+  const auto factor = [](const Run& r) {
+    return std::visit(
+        [](const auto& s) {
+          if constexpr (requires { s.load_factor(); }) return s.load_factor();
+          else return 0.0;
+        },
+        r.prepared.solver);
+  };
+  return std::abs(factor(run) - factor(last)) <= same_load * factor(run);
+}
+
+// Runs with growing multiples of the first arcs, each compared with the one before along the whole rod.
 Equilibrium solve_to_tolerance(const Task& task) {
   const double p = order(task.choice.law);
   const double length_mm = task.spans.back().end_mm;
@@ -337,28 +349,29 @@ Equilibrium solve_to_tolerance(const Task& task) {
   int multiple = 1;
   std::optional<Run> coarse(std::in_place, task.spans, first, task.choice, task.options);
   double error = std::numeric_limits<double>::infinity();
-  int failures = coarse->status == Status::converged ? 0 : 1;
+  double needed = error;  // what must meet the tolerance: the error, and that of follower loads' directions over L
   int next = 2;
-  while (static_cast<double>(next) * count <= max_arcs && (coarse->marched() || failures < 4)) {
-    const std::vector<int> arcs = times(first, next);
-    const std::vector<int> coarse_arcs = times(first, multiple);
-    Run fine = refined(task, arcs, *coarse, coarse_arcs, count);
+  while (static_cast<double>(next) * count <= max_arcs && coarse->status != Status::work_limit) {
+    Run fine = refined(task, times(first, next), *coarse);
     const double ratio = static_cast<double>(next) / multiple;
     int after = 2 * next;
-    if (fine.status != Status::converged) ++failures;
+    if (fine.status != Status::converged && is_the_end(*coarse, fine)) return failure(fine);
     if (coarse->status == Status::converged && fine.status == Status::converged) {
-      const double d = distance_mm(*coarse, fine, count);
-      const auto meets = [&](const Run& run, const std::vector<int>& its_arcs, double estimate) {
-        error = estimate + round_off_mm(task.spans, run) + task.choice.rod.left_out_mm;
-        if (reach_rad(task, run, its_arcs) > resolved_reach_rad) error = std::max(error, length_mm);
-        return error <= task.tolerance_mm;
+      const Distance d = distance(*coarse, fine);
+      const double d_mm = std::max(d.position_mm, d.rotation_rad * length_mm);
+      const auto meets = [&](const Run& run, double factor) {
+        const double rest_mm = round_off_mm(task.spans, run) + task.choice.rod.left_out_mm;
+        error = factor * d.position_mm + rest_mm;
+        if (reach_rad(task, run) > resolved_reach_rad) error = std::max(error, length_mm);
+        needed = std::max(error, factor * d_mm + rest_mm);
+        return needed <= task.tolerance_mm;
       };
       const std::string reason = "fewest arcs found whose estimate meets the tolerance";
-      if (meets(*coarse, coarse_arcs, coarse_safety * d)) return success(task, *coarse, coarse_arcs, error, reason);
-      if (meets(fine, arcs, d * (fine_safety / (std::pow(ratio, p - 1) - 1) + distrust * d / length_mm))) {
-        return success(task, fine, arcs, error, reason);
+      if (meets(*coarse, coarse_safety)) return success(task, *coarse, error, reason);
+      if (meets(fine, fine_safety / (std::pow(ratio, p - 1) - 1) + distrust * d_mm / length_mm)) {
+        return success(task, fine, error, reason);
       }
-      const double growth = 1.05 * std::pow(error / task.tolerance_mm, 1 / p);
+      const double growth = 1.05 * std::pow(needed / task.tolerance_mm, 1 / p);
       after = static_cast<int>(std::clamp(std::ceil(growth * next), 1.3 * next, 4.0 * next));
       after = std::max(after, next + 1);
     }
@@ -369,7 +382,7 @@ Equilibrium solve_to_tolerance(const Task& task) {
   if (coarse->status != Status::converged) return failure(*coarse);
   Equilibrium result;
   result.status = Status::tolerance_not_met;
-  result.message = "estimated tip error " + rounded(error) + " mm exceeds the tolerance " + rounded(task.tolerance_mm) +
+  result.message = "estimated error " + rounded(error) + " mm exceeds the tolerance " + rounded(task.tolerance_mm) +
                    " mm with " + std::to_string(coarse->arc_count()) + " arcs";
   return result;
 }
@@ -437,7 +450,7 @@ Equilibrium solve(const scene::Scene& scene, const Options& options) {
     return result;
   }
   const double tolerance_mm = options.tolerance_mm > 0 ? options.tolerance_mm : 1e-3 * spans.back().end_mm;
-  const Task task{spans, options, choose(spans, options, tolerance_mm), tolerance_mm};
+  const Task task{scene, spans, options, choose(spans, options, tolerance_mm), tolerance_mm};
   return options.arcs > 0 ? solve_fixed(task) : solve_to_tolerance(task);
 }
 

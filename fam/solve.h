@@ -23,7 +23,7 @@ struct Options {
   // Number of arcs, 1..max_arcs; 0: as many as the tolerance asks for. Each span between section changes and loads
   // gets at least one, whatever is asked for.
   int arcs = 0;
-  // Largest tip error wanted, mm; 0: 1e-3 of the rod's length. Used only where arcs = 0.
+  // Largest error wanted of any place along the rod, mm; 0: 1e-3 of its length. Used only where arcs = 0.
   double tolerance_mm = 0;
 
   // With a fixed number of arcs the error estimate takes a second march of twice as many; false leaves it out (0).
@@ -34,10 +34,11 @@ const char* name(Law law);
 
 // Solves a valid scene (scene::validate). Numerical trouble is a status, never an exception:
 //   unsupported        published law with a fixed or distributed load, with shear or EI_y != EI_z
-//   load_step_too_small, not_converged   see fam/boundary_value.h
+//   load_step_too_small, work_limit, not_converged   see fam/boundary_value.h
 //   arc_not_converged  published law: see fam/arc_law.h; sixth_order with fixed arcs: an arc that grows by more than
 //                      resolved_growth or reaches farther than resolved_reach_rad
-//   tolerance_not_met  estimated tip error > tolerance with max_arcs arcs
+//   tolerance_not_met  estimated error > tolerance with max_arcs arcs
+//   tendon_collapsed   |v + u x r| <= smallest_tendon_stretch somewhere (fam/tendon.h)
 //   not_finite         overflow
 //
 // The automatic choice, each part reported in words (model: reason):
@@ -47,7 +48,8 @@ const char* name(Law law);
 //   arcs             multiples of first_arcs(), the smallest found whose estimated error meets the tolerance
 //   solver           the march where all loads follow, else the boundary value problem
 //
-// Error estimate, with a fixed number of arcs N: the largest distance d between the arc ends with N and with 2N arcs,
+// Error estimate, with a fixed number of arcs N: the largest distance d between the shapes with N and with 2N arcs (at
+// the arcs' ends and middles),
 // times 2^p/(2^p - 1) for the law's order p (published: p = 1, its order in 3D). By tolerance: see the constants below.
 // Both: plus the round-off 4 eps L sqrt(N). It estimates the discretisation error of the chosen rod model; where the
 // automatic choice leaves out shear and stretch, the bound on what they could do is added.
@@ -67,6 +69,11 @@ constexpr double leading_reach_rad = 1.25;
 // estimate is then at least L, and the series of sixth_order have no answer at all.
 constexpr double resolved_growth = 2.5;     // sqrt(force / EI) h
 constexpr double resolved_reach_rad = 2.5;  // an arc's turn, or what its moment grows or swings by; 0 if that is steady
+
+// Runs that fail within this of the same load, relative, fail by the rod and not by their arcs.
+constexpr double same_load = 1e-3;
+// Stability is judged with twice the arcs until two judgements agree.
+constexpr int most_stability_doublings = 6;
 
 // The solver that options with fixed arcs, law and model describe, with its memory; empty where solve() would end in
 // `unsupported`, with the reason. run_prepared does not allocate for a march, nor for a boundary value problem of one

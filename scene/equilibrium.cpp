@@ -27,8 +27,7 @@ double tip_angle_rad(const std::vector<Station>& stations, const std::optional<E
   if (!plane_normal_B) return Eigen::AngleAxisd(stations.back().X_BS.rotation_BS).angle();
   double angle = 0;
   for (std::size_t i = 1; i < stations.size(); ++i) {
-    const Eigen::Matrix3d step =
-        stations[i - 1].X_BS.rotation_BS.transpose() * stations[i].X_BS.rotation_BS;
+    const Eigen::Matrix3d step = stations[i - 1].X_BS.rotation_BS.transpose() * stations[i].X_BS.rotation_BS;
     // The normal is the same in base and section frames. sin and cos of the turn about it.
     const Eigen::Vector3d axis = moment_of_arms<double>(step) / 2;
     angle += std::atan2(axis.dot(*plane_normal_B), (step.trace() - 1) / 2);

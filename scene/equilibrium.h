@@ -62,9 +62,9 @@ struct Equilibrium {
   const Station& base() const { return stations.front(); }
 };
 
-// Where a plane's normal is given (of a planar scene, span_facts.h): the size of the turn about it, followed from station
-// to station, so that full turns count; consecutive stations must be less than half a turn apart. Else the rotation
-// angle of the last station, 0 to pi.
+// Where a plane's normal is given (of a planar scene, span_facts.h): the size of the turn about it, followed from
+// station to station, so that full turns count; consecutive stations must be less than half a turn apart. Else the
+// rotation angle of the last station, 0 to pi.
 double tip_angle_rad(const std::vector<Station>& stations, const std::optional<Eigen::Vector3d>& plane_normal_B);
 
 }  // namespace scene

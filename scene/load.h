@@ -11,8 +11,8 @@ namespace scene {
 // fixed: components constant in the base frame B (a dead load; a fixed moment keeps its axis).
 enum class Frame { follower, fixed };
 
-// Acts at p + R r with r = (0, y, z), (y, z) = offset_mm in the section frame: a contact on the surface, a lever arm. So
-// it also brings the moment (R r) x F about the centreline, which turns with the section.
+// Acts at p + R r with r = (0, y, z), (y, z) = offset_mm in the section frame: a contact on the surface, a lever arm.
+// So it also brings the moment (R r) x F about the centreline, which turns with the section.
 struct Force {
   double at_mm = 0;  // arc length from the clamp
   Frame frame = Frame::follower;

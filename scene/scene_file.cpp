@@ -241,8 +241,7 @@ Load read_load(const Node& node, double length) {
   }
   if (kind == "tendon") {
     node.allow_keys({"kind", "offset_mm", "tension_N", "to_mm"});
-    return Tendon{node.at("offset_mm").vector<2>(), node.at("tension_N").number(),
-                  node.number_or("to_mm", length)};
+    return Tendon{node.at("offset_mm").vector<2>(), node.at("tension_N").number(), node.number_or("to_mm", length)};
   }
   kind_node.refuse("must be force, moment, distributed_force, gravity or tendon");
 }

@@ -4,6 +4,8 @@
 
 #include "scene/scene.h"
 
+#include <Eigen/Geometry>
+
 #include <vector>
 
 namespace scene {

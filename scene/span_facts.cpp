@@ -94,8 +94,7 @@ bool lies_in(std::span<const Span> spans, int normal) {
     return planar(span.follower_load_S) && planar(span.fixed_load_B) && span.follower_force_S_N_per_mm[normal] == 0 &&
            span.fixed_force_B_N_per_mm[normal] == 0 && span.rest_curvature_per_mm[0] == 0 &&
            span.rest_curvature_per_mm[other] == 0 && span.fixed_force_arms_BS_Nmm.row(normal).isZero(0) &&
-           span.fixed_force_arms_BS_Nmm.col(normal).isZero(0) &&
-           mirrors_tendons(span, Eigen::Vector3d::Unit(normal));
+           span.fixed_force_arms_BS_Nmm.col(normal).isZero(0) && mirrors_tendons(span, Eigen::Vector3d::Unit(normal));
   });
 }
 
@@ -104,9 +103,8 @@ bool lies_on_axis(std::span<const Span> spans) {
   return std::all_of(spans.begin(), spans.end(), [&](const Span& span) {
     const auto both = [&](const Wrench& wrench) { return along(wrench.force_N) && along(wrench.moment_Nmm); };
     return both(span.follower_load_S) && both(span.fixed_load_B) && turns_tendons(span) &&
-           span.fixed_force_arms_BS_Nmm.isZero(0) &&
-           along(span.follower_force_S_N_per_mm) && along(span.fixed_force_B_N_per_mm) &&
-           along(span.rest_curvature_per_mm);
+           span.fixed_force_arms_BS_Nmm.isZero(0) && along(span.follower_force_S_N_per_mm) &&
+           along(span.fixed_force_B_N_per_mm) && along(span.rest_curvature_per_mm);
   });
 }
 
@@ -122,21 +120,19 @@ bool is_isotropic(std::span<const Span> spans) {
 std::optional<Eigen::Vector2d> plane_direction(std::span<const Span> spans) {
   DirectionFinder finder;
   for (const Span& span : spans) {
-    const bool agrees = finder.vector_agrees(span.follower_load_S.force_N) &&
-                        finder.vector_agrees(span.fixed_load_B.force_N) &&
-                        finder.vector_agrees(span.follower_force_S_N_per_mm) &&
-                        finder.vector_agrees(span.fixed_force_B_N_per_mm) && arms_agree(span, finder) &&
-                        finder.turn_agrees(span.follower_load_S.moment_Nmm) &&
-                        finder.turn_agrees(span.fixed_load_B.moment_Nmm) &&
-                        finder.turn_agrees(span.rest_curvature_per_mm) && finder.turn_agrees(tendon_moment_Nmm(span));
+    const bool agrees =
+        finder.vector_agrees(span.follower_load_S.force_N) && finder.vector_agrees(span.fixed_load_B.force_N) &&
+        finder.vector_agrees(span.follower_force_S_N_per_mm) && finder.vector_agrees(span.fixed_force_B_N_per_mm) &&
+        arms_agree(span, finder) && finder.turn_agrees(span.follower_load_S.moment_Nmm) &&
+        finder.turn_agrees(span.fixed_load_B.moment_Nmm) && finder.turn_agrees(span.rest_curvature_per_mm) &&
+        finder.turn_agrees(tendon_moment_Nmm(span));
     if (!agrees) return std::nullopt;
   }
   const Eigen::Vector2d direction = finder.common();
   const bool along_axis = direction[0] == 0 || direction[1] == 0;
   if (!along_axis && !is_isotropic(spans)) return std::nullopt;
-  const bool mirrored = std::all_of(spans.begin(), spans.end(), [&](const Span& span) {
-    return mirrors_tendons(span, normal_of(direction));
-  });
+  const bool mirrored = std::all_of(spans.begin(), spans.end(),
+                                    [&](const Span& span) { return mirrors_tendons(span, normal_of(direction)); });
   return mirrored ? std::optional(direction) : std::nullopt;
 }
 

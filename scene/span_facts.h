@@ -11,9 +11,9 @@ namespace scene {
 // The march from the tip suffices: all loads are in the section frame and none is distributed.
 bool all_loads_follow(std::span<const Span> spans);
 
-// The plane through the undeformed axis in which all loads, rest curvatures and tendons lie: the unit vector (y, z) that
-// spans it with the x axis; (1, 0) where they ask for none. Any plane if all sections have EI_y = EI_z and equal shear
-// stiffnesses, else the x-y or the x-z plane. Tendons lie in a plane if it mirrors them onto each other.
+// The plane through the undeformed axis in which all loads, rest curvatures and tendons lie: the unit vector (y, z)
+// that spans it with the x axis; (1, 0) where they ask for none. Any plane if all sections have EI_y = EI_z and equal
+// shear stiffnesses, else the x-y or the x-z plane. Tendons lie in a plane if it mirrors them onto each other.
 std::optional<Eigen::Vector2d> plane_direction(std::span<const Span> spans);
 
 // The unit normal of that plane, about which such a rod turns.

@@ -46,6 +46,26 @@ class Drawing {
     return std::move(scene_);
   }
 
+  // Lengths and stiffnesses do not matter to dimensionless answers: L = 100 mm, EI = 1500 N mm^2.
+  scene::Scene family(std::uint64_t index) {
+    constexpr double bending_Nmm2 = 1500;
+    length_mm_ = 100;
+    force_unit_N_ = bending_Nmm2 / (length_mm_ * length_mm_);
+    scene::Stiffness stiffness;
+    stiffness.bending_Nmm2.setConstant(bending_Nmm2);
+    stiffness.torsion_Nmm2 = bending_Nmm2 * (chance(0.9) ? uniform(0.3, 1) : log_uniform(1e-4, 10));
+    scene_.sections.push_back({length_mm_, stiffness, Vector3d::Zero()});
+    switch (index) {
+      case 0: draw_strip(); break;
+      case 1: draw_heavy_rod(); break;
+      case 2: draw_coil(); break;
+      case 3: draw_tendon_robot(); break;
+      case 4: add_tip_force(scene::Frame::fixed, log_uniform(10, 1e5) * direction()); break;
+      default: draw_soft_shear();
+    }
+    return std::move(scene_);
+  }
+
   scene::Scene scene() {
     planar_ = chance(0.25);
     follower_only_ = chance(1.0 / 3);
@@ -89,6 +109,88 @@ class Drawing {
   }
   void add_tip_moment(scene::Frame frame, const Vector3d& moment) {
     scene_.loads.push_back(scene::Moment{length_mm_, frame, force_unit_N_ * length_mm_ * moment});
+  }
+
+  scene::Stiffness& stiffness() { return std::get<scene::Stiffness>(scene_.sections[0].cross_section); }
+  void add_distributed(scene::Frame frame, const Vector3d& force) {
+    scene_.loads.push_back(scene::DistributedForce{0, length_mm_, frame, force_unit_N_ / length_mm_ * force});
+  }
+
+  // Bent in its stiff plane to 0.1 .. 3 times Prandtl's or the distributed load's critical one, and pushed aside.
+  void draw_strip() {
+    const double ratio = log_uniform(1e-4, 1);
+    stiffness().bending_Nmm2[0] *= ratio;
+    stiffness().torsion_Nmm2 *= chance(0.5) ? ratio : 1;
+    const double critical = std::sqrt(ratio * stiffness().torsion_Nmm2 / stiffness().bending_Nmm2[1]);
+    const bool distributed = chance(0.5);
+    const double size = (distributed ? 12.85 : 4.0126) * critical * log_uniform(0.1, 3);
+    Vector3d force = size * Vector3d::UnitY();
+    force[2] = size * log_uniform(1e-8, 0.1);
+    if (chance(0.3)) force[0] = size * uniform(-0.1, 0.1);
+    if (distributed) add_distributed(scene::Frame::fixed, force);
+    else add_tip_force(scene::Frame::fixed, force);
+  }
+
+  void draw_heavy_rod() {
+    if (chance(0.3)) stiffness().bending_Nmm2[0] *= log_uniform(1, 1e3);
+    stiffness().mass_per_length_kg_per_m = 1;
+    const double size = log_uniform(0.3, 1000);  // q L^3/EI
+    scene_.loads.push_back(scene::Gravity{1e3 * size * force_unit_N_ / length_mm_ * direction()});
+  }
+
+  // By rest curvature, or by a tendon that does not reach its coil's axis.
+  void draw_coil() {
+    const double turns = uniform(0.3, 20);
+    const double curvature_per_mm = 2 * std::numbers::pi * turns / length_mm_;
+    if (chance(0.7)) {
+      const Vector3d about = chance(0.5) ? Vector3d(Vector3d::UnitZ()) : direction();
+      scene_.sections[0].rest_curvature_per_mm = curvature_per_mm * about;
+    } else {
+      const double offset_mm = uniform(0.1, 0.7) / curvature_per_mm;
+      scene_.loads.push_back(
+          scene::Tendon{{0, offset_mm}, curvature_per_mm * stiffness().bending_Nmm2[0] / offset_mm, length_mm_});
+    }
+    add_tip_force(frame(), log_uniform(1e-2, 30) * direction());
+    if (chance(0.3)) add_distributed(frame(), log_uniform(1e-2, 30) * direction());
+    if (chance(0.3)) add_tip_moment(frame(), log_uniform(1e-2, 5) * direction());
+  }
+
+  void draw_tendon_robot() {
+    if (chance(0.5)) make_soft(log_uniform(50, 1e6));
+    if (chance(0.3)) scene_.sections[0].rest_curvature_per_mm = uniform(0, 5) / length_mm_ * direction();
+    const int tendons = integer(1, 4), loads = integer(0, 3);
+    for (int i = 0; i < tendons; ++i) {
+      const double angle = uniform(0, 2 * std::numbers::pi), radius_mm = length_mm_ * uniform(0.005, 0.04);
+      const double tension = log_uniform(0.1, 0.5 * length_mm_ / radius_mm);  // bends by half a radian over its radius
+      const double to_mm = chance(0.5) ? length_mm_ : length_mm_ * uniform(0.3, 1);
+      scene_.loads.push_back(
+          scene::Tendon{radius_mm * Vector2d(std::cos(angle), std::sin(angle)), force_unit_N_ * tension, to_mm});
+    }
+    for (int i = 0; i < loads; ++i) {
+      const double at_mm = chance(0.5) ? length_mm_ : length_mm_ * uniform(0.2, 1);
+      const scene::Frame in = frame();
+      if (chance(0.3)) {
+        scene_.loads.push_back(
+            scene::Moment{at_mm, in, force_unit_N_ * length_mm_ * log_uniform(0.05, 3) * direction()});
+        continue;
+      }
+      const Vector2d offset_mm =
+          chance(0.4) ? Vector2d(length_mm_ * Vector2d{uniform(-0.04, 0.04), uniform(-0.04, 0.04)}) : Vector2d(0, 0);
+      scene_.loads.push_back(scene::Force{at_mm, in, force_unit_N_ * log_uniform(0.05, 10) * direction(), offset_mm});
+    }
+  }
+
+  // Shear stiffness over EI/L^2.
+  void make_soft(double shear) {
+    stiffness().axial_N = 3 * shear * force_unit_N_;
+    stiffness().shear_N = shear * force_unit_N_ * Vector2d{1, uniform(0.5, 2)};
+  }
+
+  void draw_soft_shear() {
+    make_soft(log_uniform(20, 1e4));
+    add_tip_force(frame(), log_uniform(0.3, 10) * direction());
+    if (chance(0.7)) add_distributed(frame(), log_uniform(0.1, 10) * direction());
+    if (chance(0.3)) add_tip_moment(frame(), log_uniform(0.1, 5) * direction());
   }
 
   // Straight aside, in a plane or anyhow; planar scenes among them.
@@ -218,9 +320,16 @@ class Drawing {
 
 }  // namespace
 
+std::string kind_of(std::uint64_t seed) {
+  if (seed < first_buckling_seed) return "general";
+  return seed < first_family_seed ? "buckling" : families[(seed - first_family_seed) % families.size()];
+}
+
 scene::Scene random_scene(std::uint64_t seed, const RandomSceneLimits& limits) {
   Drawing drawing(seed, limits);
-  scene::Scene scene = seed < first_buckling_seed ? drawing.scene() : drawing.buckling();
+  scene::Scene scene = seed < first_buckling_seed ? drawing.scene()
+                       : seed < first_family_seed ? drawing.buckling()
+                                                  : drawing.family((seed - first_family_seed) % families.size());
   scene.title = "random scene " + std::to_string(seed);
   return scene;
 }

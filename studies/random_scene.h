@@ -3,7 +3,9 @@
 
 #include "scene/scene.h"
 
+#include <array>
 #include <cstdint>
+#include <string>
 
 namespace studies {
 
@@ -17,6 +19,15 @@ struct RandomSceneLimits {
 // Seeds from this one on are rods that buckle: pressed almost along the axis, or strips bent almost in their stiff
 // plane, and pushed aside by 1e-7 to 0.1 of EI/L^2 in all manners.
 constexpr std::uint64_t first_buckling_seed = 100'000;
+
+// Seeds from this one on are of six families in turn, in which estimates and the choice of arcs proved hardest: strips
+// near lateral buckling, heavy rods clamped at any angle, rods coiled by up to twenty turns, robots with one to four
+// tendons and forces off the centreline, cables up to F L^2/EI = 1e5, and rods of soft shear.
+constexpr std::uint64_t first_family_seed = 200'000;
+constexpr std::array<const char*, 6> families{"strips", "heavy rods", "coiled rods", "tendons", "cables", "soft shear"};
+
+// What the scenes of this seed are called: "general", "buckling", or a family.
+std::string kind_of(std::uint64_t seed);
 
 // A valid scene: 1..sections_max sections, all load kinds in both frames; a quarter planar, a third with follower loads
 // and tendons alone. random_scene.cpp holds the distributions.

@@ -82,8 +82,8 @@ TEST(Screw, QuarterCircle) {
   EXPECT_LT((tip.rotation_BS.col(0) - Vector3d(0, 1, 0)).norm(), 1e-15);
 }
 
-// Full turns count, also where a station is back at no rotation.
-TEST(TotalAngle, FollowsTurns) {
+// In a plane full turns count, also where a station is back at no rotation; in space the angle is the last station's.
+TEST(TipAngle, FollowsTurnsInAPlane) {
   for (const double turns : {0.25, 0.5, 1.0, 2.0, -2.0, 10.0}) {
     std::vector<scene::Station> stations;
     for (int i = 0; i <= 400; ++i) {
@@ -91,7 +91,9 @@ TEST(TotalAngle, FollowsTurns) {
       const SectionPose pose = SectionPose{}.then(exponential(Screw{angle * Vector3d(0, 0.6, 0.8), Vector3d::Zero()}));
       stations.push_back({i / 400., {pose.rotation_BS, pose.position_B_mm}});
     }
-    EXPECT_NEAR(scene::total_angle_rad(stations), 2 * std::numbers::pi * std::abs(turns), 1e-6);
+    EXPECT_NEAR(scene::tip_angle_rad(stations, Vector3d(0, 0.6, 0.8)), 2 * std::numbers::pi * std::abs(turns), 1e-9);
+    const double in_space = 2 * std::numbers::pi * std::abs(turns - std::round(turns));
+    EXPECT_NEAR(scene::tip_angle_rad(stations, std::nullopt), in_space, 1e-7);
   }
 }
 

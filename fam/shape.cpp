@@ -1,0 +1,154 @@
+#include "fam/shape.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace fam {
+namespace {
+
+// The constants of a part of an arc, without its tendons.
+template <int D>
+BasicArcConstants<D> part_of(const BasicArcConstants<D>& arc, double part) {
+  BasicArcConstants<D> result;
+  result.length_mm = part * arc.length_mm;
+  result.angular_compliance = part * arc.angular_compliance;
+  result.rest_rotation = part * arc.rest_rotation;
+  result.linear_compliance = part * arc.linear_compliance;
+  result.rest_translation_mm = part * arc.rest_translation_mm;
+  result.tendons = arc.tendons;
+  result.straight_tendons = arc.straight_tendons;
+  return result;
+}
+
+// The pose whose motion leads on to `distal`.
+template <int D>
+BasicPose<D> before(const BasicPose<D>& distal, const BasicMotion<double, D>& motion) {
+  BasicPose<D> pose;
+  for (int row = 0; row < D; ++row) {
+    pose.rotation_BS.row(row) = motion.rotate(Vector<double, D>(distal.rotation_BS.row(row).transpose())).transpose();
+  }
+  pose.position_B_mm = distal.position_B_mm - pose.rotation_BS * motion.position_mm;
+  return pose;
+}
+
+template <bool with_shear, int D>
+BasicPose<D> pose_by_law(const SolvedRod<D>& rod, const SpanArcs<D>& span, int arc, double fraction) {
+  const BasicPose<D>& distal = rod.poses[static_cast<std::size_t>(arc) + 1];
+  const double part = 1 - fraction;
+  const BasicArcConstants<D> constants = part_of(span.constants, part);
+  ArcForces<double, D> forces = span.template forces<double>(distal.rotation_BS.transpose());
+  forces.follower_S_N *= part;
+  forces.fixed_D_N *= part;
+  BasicWrench<double, D> wrench = rod.distal_wrenches_S[static_cast<std::size_t>(arc)];
+  BasicScrew<double, D> screw;
+  BasicPose<D> pose;
+  with_section<with_shear, double, D>(constants, [&](auto& section) {
+    pose = before(distal, law_step(rod.law, section, span.distributed ? &forces : nullptr, wrench, screw));
+  });
+  return pose;
+}
+
+SectionPose pose_by_bezier(const Arc& arc, const SectionPose& proximal, double fraction) {
+  SectionPose pose = proximal.then(twist(arc.twist_before_rad));
+  const double angle = arc.screw.rotation.norm();
+  const RigidMotion bend = exponential(fraction * arc.screw);
+  Vector3d position = bend.position_mm;
+  if (angle > 0 && angle < std::numbers::pi) {
+    const double f = fraction, g = 1 - fraction;
+    const auto points = bezier_control_points(arc.screw.translation_mm[0], angle);
+    const Eigen::Vector2d at = 3 * g * g * f * points[1] + 3 * g * f * f * points[2] + f * f * f * points[3];
+    const Vector3d side = (arc.screw.rotation / angle).cross(Vector3d::UnitX());
+    position = at[0] * Vector3d::UnitX() + at[1] * side;
+  }
+  const Vector3d position_B_mm = pose.position_B_mm + pose.rotation_BS * position;
+  pose = pose.then(bend).then(twist((fraction - 1) * arc.twist_before_rad + fraction * arc.twist_after_rad));
+  pose.position_B_mm = position_B_mm;
+  return pose;
+}
+
+}  // namespace
+
+template <int D>
+BasicPose<D> pose_in_arc(const SolvedRod<D>& rod, const SpanArcs<D>& span, int arc, double fraction) {
+  const auto k = static_cast<std::size_t>(arc);
+  if (fraction <= 0) return rod.poses[k];
+  if (fraction >= 1) return rod.poses[k + 1];
+  if constexpr (D == 3) {
+    if (rod.law == Law::published) return pose_by_bezier(rod.arcs[k], rod.poses[k], fraction);
+  }
+  return rod.model == RodModel::reissner ? pose_by_law<true>(rod, span, arc, fraction)
+                                         : pose_by_law<false>(rod, span, arc, fraction);
+}
+
+// From the arc's distal end towards the clamp: the forces beyond and the moments of what lies between.
+template <int D>
+BasicWrench<double, D> BasicShape<D>::wrench_towards(int arc, double fraction, const BasicPose<D>& pose) const {
+  const SpanArcs<D>& span = span_of(arc);
+  const BasicWrench<double, D>& distal = distal_totals_B_[static_cast<std::size_t>(arc)];
+  const Vector<double, D> arm = rod_.poses[static_cast<std::size_t>(arc) + 1].position_B_mm - pose.position_B_mm;
+  BasicWrench<double, D> total{distal.force_N, distal.moment_Nmm + arm_cross(arm, distal.force_N)};
+  if (!span.distributed) return total;
+  const double part = 1 - fraction;
+  total.force_N += part * span.fixed_force_B_N;
+  for (std::size_t i = 0; i < gauss_points.size(); ++i) {
+    const BasicPose<D> at = pose_in_arc(rod_, span, arc, fraction + part * gauss_points[i]);
+    const double weight = part * gauss_weights[i];
+    const Vector<double, D> follower = weight * (at.rotation_BS * span.follower_force_S_N);
+    const Vector<double, D> force = weight * span.fixed_force_B_N + follower;
+    total.force_N += follower;
+    total.moment_Nmm += arm_cross(Vector<double, D>(at.position_B_mm - pose.position_B_mm), force);
+  }
+  return total;
+}
+
+template <int D>
+BasicShape<D>::BasicShape(const SolvedRod<D>& rod) : rod_(rod), distal_totals_B_(rod.arcs.size()) {
+  for (std::size_t i = 0; i < rod.spans.size(); ++i) {
+    span_of_arc_.resize(static_cast<std::size_t>(rod.spans[i].end_arc), static_cast<int>(i));
+  }
+  BasicWrench<double, D> total;  // base frame
+  for (auto span = rod.spans.rbegin(); span != rod.spans.rend(); ++span) {
+    const Eigen::Matrix<double, D, D>& R = rod.poses[static_cast<std::size_t>(span->end_arc)].rotation_BS;
+    BasicWrench<double, D> loads_S;
+    span->template add_point_loads<double>(R.transpose(), loads_S);
+    total.force_N += span->fixed_load_B.force_N + R * span->follower_load_S.force_N;
+    if constexpr (D == 3) total.moment_Nmm += R * loads_S.moment_Nmm;
+    else total.moment_Nmm += loads_S.moment_Nmm;
+    for (int arc = span->end_arc; arc-- > span->first_arc;) {
+      distal_totals_B_[static_cast<std::size_t>(arc)] = total;
+      total = wrench_towards(arc, 0, rod.poses[static_cast<std::size_t>(arc)]);
+    }
+  }
+}
+
+template <int D>
+typename BasicShape<D>::Section BasicShape<D>::section(int arc, double fraction) const {
+  Section result;
+  result.pose = pose_in_arc(rod_, span_of(arc), arc, fraction);
+  result.total_B =
+      fraction >= 1 ? distal_totals_B_[static_cast<std::size_t>(arc)] : wrench_towards(arc, fraction, result.pose);
+  const SpanArcs<D>& span = span_of(arc);
+  const Eigen::Matrix<double, D, D>& R = result.pose.rotation_BS;
+  BasicWrench<double, D> total_S = result.total_B;
+  total_S.force_N = R.transpose() * total_S.force_N;
+  if constexpr (D == 3) total_S.moment_Nmm = R.transpose() * total_S.moment_Nmm;
+  const BasicArcConstants<D>& constants = span.constants;
+  const auto with = [&](auto& section) {
+    const BasicScrew<double, D> strain = section.strain(total_S);
+    result.strain_per_mm = (1 / constants.length_mm) * strain;
+    const BasicWrench<double, D> own_S = total_S + (-1.0) * tendon_pulls(constants.tendons, strain);
+    result.own_B.force_N = R * own_S.force_N;
+    if constexpr (D == 3) result.own_B.moment_Nmm = R * own_S.moment_Nmm;
+    else result.own_B.moment_Nmm = own_S.moment_Nmm;
+  };
+  if (rod_.model == RodModel::reissner) with_section<true, double, D>(constants, with);
+  else with_section<false, double, D>(constants, with);
+  return result;
+}
+
+template BasicPose<2> pose_in_arc(const SolvedRod<2>&, const SpanArcs<2>&, int, double);
+template BasicPose<3> pose_in_arc(const SolvedRod<3>&, const SpanArcs<3>&, int, double);
+template class BasicShape<2>;
+template class BasicShape<3>;
+
+}  // namespace fam

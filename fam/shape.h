@@ -1,0 +1,54 @@
+// A solved rod at any place: poses, strains and wrenches inside its arcs, and the wrenches that balance its loads.
+//
+// Dense output. Inside an arc the law's own step of the part from the arc's distal end to the place gives pose and
+// wrench, to the law's order; at the arc's proximal end it is the arc itself. The published law's position lies on its
+// cubic Bezier curve (where the arc bends by less than half a turn), its twist is spread evenly.
+//
+// Balance. The total internal wrench at a place is the sum of the loads beyond it on the returned shape: for fixed
+// loads the force is exact, and the moment as accurate as the shape, whatever the arcs' series left of theirs. The
+// rod's own is that less the tendons' pulls T t/|t| and r x T t/|t|, t = v + u x r.
+#pragma once
+
+#include "fam/march.h"
+
+#include <array>
+#include <vector>
+
+namespace fam {
+
+// Gauss points and weights of order eight on [0, 1].
+constexpr std::array<double, 4> gauss_points{0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
+                                             0.93056815579702629};
+constexpr std::array<double, 4> gauss_weights{0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
+                                              0.17392742256872693};
+
+// Pose at a fraction in [0, 1] of an arc's length from its proximal end; `span` holds the arc.
+template <int D>
+BasicPose<D> pose_in_arc(const SolvedRod<D>& rod, const SpanArcs<D>& span, int arc, double fraction);
+
+template <int D>
+class BasicShape {
+ public:
+  // Keeps the rod's views. Cost linear in the arcs.
+  explicit BasicShape(const SolvedRod<D>& rod);
+
+  // Pose; total internal wrench (base frame, of the side towards the clamp, loads included); the rod's own; strain.
+  struct Section {
+    BasicPose<D> pose;
+    BasicWrench<double, D> total_B, own_B;
+    BasicScrew<double, D> strain_per_mm;  // (u, v)
+  };
+  Section section(int arc, double fraction) const;
+
+ private:
+  BasicWrench<double, D> wrench_towards(int arc, double fraction, const BasicPose<D>& pose) const;
+  const SpanArcs<D>& span_of(int arc) const {
+    return rod_.spans[static_cast<std::size_t>(span_of_arc_[static_cast<std::size_t>(arc)])];
+  }
+
+  SolvedRod<D> rod_;
+  std::vector<int> span_of_arc_;
+  std::vector<BasicWrench<double, D>> distal_totals_B_;  // at the arcs' distal ends, loads there included
+};
+
+}  // namespace fam

@@ -1,0 +1,163 @@
+#include "fam/stations.h"
+
+#include "fam/embedding.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fam {
+namespace {
+
+constexpr int intervals = 40;
+constexpr double largest_turn_rad = 0.5;
+
+// A place in an arc; s = L k/40 and span ends must be stations, others may.
+struct Place {
+  double s_mm;
+  int arc;
+  double fraction;
+  bool required;
+};
+
+// All candidates in order, without the clamp; each arc's interior is cut so that no piece turns far.
+template <int D>
+std::vector<Place> places(std::span<const scene::Span> spans, const SolvedRod<D>& rod) {
+  const double length_mm = spans.back().end_mm;
+  std::vector<Place> result;
+  int next = 1;  // of s = L next/40
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    const SpanArcs<D>& arcs = rod.spans[i];
+    const int count = arcs.end_arc - arcs.first_arc;
+    const double h_mm = spans[i].length_mm() / count;
+    for (int k = 0; k < count; ++k) {
+      const int arc = arcs.first_arc + k;
+      const BasicArc<D>& solved = rod.arcs[static_cast<std::size_t>(arc)];
+      const double turn =
+          solved.screw.rotation.norm() + std::abs(solved.twist_before_rad) + std::abs(solved.twist_after_rad);
+      const int pieces = static_cast<int>(std::clamp(std::ceil(turn / largest_turn_rad), 1.0, 1e4));
+      const double start_mm = spans[i].start_mm + k * h_mm;
+      for (int piece = 1; piece <= pieces; ++piece) {
+        const double end = static_cast<double>(piece) / pieces;
+        const bool last = piece == pieces;
+        const double end_mm = last && k + 1 == count ? spans[i].end_mm : start_mm + end * h_mm;
+        const double hair_mm = scene::same_place_relative * length_mm;
+        for (; next < intervals && length_mm * next / intervals < end_mm - hair_mm; ++next) {
+          const double s_mm = length_mm * next / intervals;
+          const double fraction = std::clamp((s_mm - start_mm) / h_mm, 0.0, 1.0);
+          if (s_mm > (result.empty() ? 0 : result.back().s_mm) + hair_mm) result.push_back({s_mm, arc, fraction, true});
+        }
+        const bool at_fortieth = next < intervals && std::abs(length_mm * next / intervals - end_mm) <= hair_mm;
+        if (at_fortieth) ++next;
+        result.push_back({end_mm, arc, end, at_fortieth || (last && k + 1 == count)});
+      }
+    }
+  }
+  return result;
+}
+
+// The places that are needed: turns of the rod from one kept to the next are the sum of those between.
+template <int D>
+std::vector<Place> thinned(std::vector<Place> all, const SolvedRod<D>& rod) {
+  std::vector<Place> kept;
+  double turned = 0, fraction_before = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const BasicArc<D>& arc = rod.arcs[static_cast<std::size_t>(all[i].arc)];
+    const double turn = arc.screw.rotation.norm() + std::abs(arc.twist_before_rad) + std::abs(arc.twist_after_rad);
+    const double step = turn * (all[i].fraction - fraction_before);
+    if (turned > 0 && turned + step > largest_turn_rad && !all[i - 1].required) {
+      kept.push_back(all[i - 1]);
+      turned = 0;
+    }
+    turned += step;
+    fraction_before = all[i].fraction >= 1 ? 0 : all[i].fraction;
+    if (!all[i].required) continue;
+    kept.push_back(all[i]);
+    turned = 0;
+  }
+  return kept;
+}
+
+template <int D>
+scene::Station station(double s_mm, const typename BasicShape<D>::Section& section, const Matrix3d& rotation_BP) {
+  const SectionPose pose = in_base(section.pose, rotation_BP);
+  return {s_mm,
+          {pose.rotation_BS, pose.position_B_mm},
+          rotation_BP * embedded(section.own_B.force_N),
+          rotation_BP * embedded_turn(section.own_B.moment_Nmm)};
+}
+
+// Length of t = v + u x r per mm of rod.
+double stretch(const Vector3d& u, const Vector3d& v, const Vector3d& arm_mm) {
+  return (v + u.cross(arm_mm)).norm();
+}
+
+// int |e_x + u0 x r| ds - int |v + u x r| ds by Gauss' rule of order eight on each arc, section frames.
+template <int D>
+std::vector<double> shortenings_mm(const scene::Scene& scene, std::span<const scene::Span> spans,
+                                   const SolvedRod<D>& rod, const BasicShape<D>& shape, const Matrix3d& rotation_BP) {
+  std::vector<const scene::Tendon*> tendons;
+  for (const scene::Load& load : scene.loads) {
+    if (const auto* tendon = std::get_if<scene::Tendon>(&load)) tendons.push_back(tendon);
+  }
+  std::vector<double> result(tendons.size(), 0);
+  if (tendons.empty()) return result;
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    const double middle_mm = (spans[i].start_mm + spans[i].end_mm) / 2;
+    const double h_mm = spans[i].length_mm() / (rod.spans[i].end_arc - rod.spans[i].first_arc);
+    for (int arc = rod.spans[i].first_arc; arc < rod.spans[i].end_arc; ++arc) {
+      for (std::size_t g = 0; g < gauss_points.size(); ++g) {
+        const BasicScrew<double, D> strain = shape.section(arc, gauss_points[g]).strain_per_mm;
+        const Vector3d u = rotation_BP * embedded_turn(strain.rotation),
+                       v = rotation_BP * embedded(strain.translation_mm);
+        for (std::size_t t = 0; t < tendons.size(); ++t) {
+          if (middle_mm > tendons[t]->to_mm) continue;
+          const Vector3d arm_mm(0, tendons[t]->offset_mm[0], tendons[t]->offset_mm[1]);
+          const double at_rest = stretch(spans[i].rest_curvature_per_mm, Vector3d::UnitX(), arm_mm);
+          result[t] += gauss_weights[g] * h_mm * (at_rest - stretch(u, v, arm_mm));
+        }
+      }
+    }
+  }
+  return result;
+}
+
+// Straight tendons (fam/tendon.h) are not checked by the laws.
+template <int D>
+bool any_collapsed(const SolvedRod<D>& rod) {
+  for (const SpanArcs<D>& span : rod.spans) {
+    if (!span.constants.straight_tendons) continue;
+    for (const BasicTendon<D>& tendon : span.constants.tendons) {
+      for (int arc = span.first_arc; arc < span.end_arc; ++arc) {
+        const BasicScrew<double, D>& strain = rod.arcs[static_cast<std::size_t>(arc)].screw;
+        const Vector<double, D> t = strain.translation_mm + cross(strain.rotation, tendon.arm_mm);
+        if (!(t[0] > smallest_tendon_stretch * span.constants.length_mm)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+template <int D>
+void set_shape(scene::Equilibrium& result, const scene::Scene& scene, std::span<const scene::Span> spans,
+               const SolvedRod<D>& rod, const Matrix3d& rotation_BP) {
+  if (any_collapsed(rod)) {
+    result.status = scene::Status::tendon_collapsed;
+    result.message = "a tendon's path has no length somewhere: |v + u x r| = 0";
+    return;
+  }
+  const BasicShape<D> shape(rod);
+  result.stations = {station<D>(0, shape.section(0, 0), rotation_BP)};
+  for (const Place& place : thinned(places(spans, rod), rod)) {
+    result.stations.push_back(station<D>(place.s_mm, shape.section(place.arc, place.fraction), rotation_BP));
+  }
+  result.tendon_shortening_mm = shortenings_mm(scene, spans, rod, shape, rotation_BP);
+}
+
+template void set_shape(scene::Equilibrium&, const scene::Scene&, std::span<const scene::Span>, const SolvedRod<2>&,
+                        const Matrix3d&);
+template void set_shape(scene::Equilibrium&, const scene::Scene&, std::span<const scene::Span>, const SolvedRod<3>&,
+                        const Matrix3d&);
+
+}  // namespace fam
