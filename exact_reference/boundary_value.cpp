@@ -40,6 +40,7 @@ struct Path {
   int newton_iterations = 0;
   std::size_t fewest_intervals = shooting.mesh().size();
   double work = 0;
+  bool tendon_collapsed = false;  // in the last iteration
   bool watch_stability = false;  // conservative, and stable so far
   scene::Symmetry symmetry = scene::Symmetry::none;
   double load_size = 0;          // of ScaledRod
@@ -50,6 +51,7 @@ struct Path {
   Convergence newton(NodeStates& states, double load_factor, double tolerance, int max_iterations) {
     const Convergence result = shooting.newton(states, load_factor, tolerance, max_iterations);
     newton_iterations += result.iterations;
+    tendon_collapsed = result.tendon_collapsed;
     work += static_cast<double>(result.iterations) * static_cast<double>(shooting.mesh().size());
     return result;
   }
@@ -156,7 +158,8 @@ bool follow_load(Path& path) {
   return true;
 }
 
-// Tip error over L, estimated by the change that halving the mesh makes; keeps the finer mesh. Negative: not converged.
+// Largest error of a node's position over L, estimated by the change that halving the mesh makes; keeps the finer mesh.
+// Negative: not converged.
 double solve_accurately(Path& path, double tolerance) {
   const double local_tolerance = std::max(tolerance / 20, 1e-14);
   const auto converge = [&] {
@@ -168,42 +171,44 @@ double solve_accurately(Path& path, double tolerance) {
   const double roundoff = 4e-16 * std::sqrt(static_cast<double>(path.shooting.mesh().size()));
   double change = HUGE_VAL;
   for (int halvings = 0; halvings < 3; ++halvings) {
-    const Eigen::Vector3d coarse_tip = path.y.back().tail<3>();
+    const NodeStates coarse = path.y;
     path.shooting.halve(path.y, 1);
     if (!converge()) return -1;
     const double last = change;
-    change = (path.y.back().tail<3>() - coarse_tip).norm();
+    change = 0;
+    for (std::size_t k = 0; k < coarse.size(); ++k) {
+      change = std::max(change, (path.y[2 * k].tail<3>() - coarse[k].tail<3>()).norm());
+    }
     if (change <= tolerance || change > last / 2) break;
   }
   return change + roundoff;
 }
 
-double turning_rad(const Path& path) {
-  double turning = 0;
-  for (std::size_t i = 0; i < path.shooting.mesh().size(); ++i) {
-    const State y = path.shooting.start_state(path.y, 1, i);
-    const Eigen::Vector3d moment_S = rotation_of(y.head<4>()).transpose() * y.segment<3>(7);
-    turning += path.shooting.mesh()[i].length * path.shooting.equations(i, 1).curvature_S(moment_S).norm();
+std::vector<PlacedState> node_states(const ScaledRod& rod, const Path& path) {
+  const Mesh& mesh = path.shooting.mesh();
+  std::vector<PlacedState> states{{0, path.y[0]}};
+  for (std::size_t i = 0; i < mesh.size(); ++i) {
+    const double span_end = rod.spans[static_cast<std::size_t>(mesh[i].span)].end;
+    states.push_back({mesh[i].ends_span ? span_end : mesh[i + 1].start, path.y[i + 1]});
   }
-  return turning;
+  return states;
 }
 
-// Each station by a step of its own from the node before it, so that it is as accurate as the nodes.
-std::vector<scene::Station> stations_of(const ScaledRod& rod, const Path& path) {
+// Each by a step of its own from the node before it, so that it is as accurate as the nodes.
+std::vector<PlacedState> states_at(const std::vector<double>& places, const ScaledRod& rod, const Path& path) {
   const Mesh& mesh = path.shooting.mesh();
-  std::vector<scene::Station> stations;
+  std::vector<PlacedState> states{{0, path.y[0]}};
   std::size_t i = 0;
-  for (const double place : station_places(rod, equal_parts_for(turning_rad(path)))) {
-    while (i + 1 < mesh.size() && place >= mesh[i + 1].start) ++i;
-    State y = path.shooting.start_state(path.y, 1, i);
-    if (place >= rod.spans.back().end) {
-      y = path.y.back();
-    } else if (place > mesh[i].start) {
-      y = runge_kutta_step(path.shooting.equations(i, 1), y, place - mesh[i].start);
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    while (i + 1 < mesh.size() && places[k] > mesh[i + 1].start) ++i;
+    State y = path.y[i + 1];
+    if (!(mesh[i].ends_span && places[k] >= rod.spans[static_cast<std::size_t>(mesh[i].span)].end)) {
+      y = runge_kutta_step(path.shooting.equations(i, 1), path.shooting.start_state(path.y, 1, i),
+                           places[k] - mesh[i].start);
     }
-    stations.push_back(station_of(rod, place, y.head<4>(), y.tail<3>()));
+    states.push_back({places[k], y});
   }
-  return stations;
+  return states;
 }
 
 void set_stability(scene::Equilibrium& result, const ScaledRod& rod, const Path& path) {
@@ -244,8 +249,11 @@ scene::Equilibrium solve_boundary_value(const ScaledRod& rod, double tolerance) 
     result.status = scene::Status::load_step_too_small;
     result.message =
         text("no equilibrium found next to the one at %.6g of the load: a fold, or too large a load", path.load);
-    if (path.exhausted() || path.steps > most_load_steps) {
-      result.status = scene::Status::not_converged;
+    if (path.tendon_collapsed) {
+      result.status = scene::Status::tendon_collapsed;
+      result.message = text("the path of a tendon has no length somewhere beyond %.6g of the load", path.load);
+    } else if (path.exhausted() || path.steps > most_load_steps) {
+      result.status = scene::Status::work_limit;
       result.message = text("given up at %.6g of the load: a rod that turns so much takes too many steps", path.load);
     }
     return result;
@@ -259,9 +267,9 @@ scene::Equilibrium solve_boundary_value(const ScaledRod& rod, double tolerance) 
     return result;
   }
   result.status = scene::Status::converged;
-  result.stations = stations_of(rod, path);
-  result.tip_angle_rad = scene::total_angle_rad(result.stations);
-  set_base_wrench(result, rod, path.y[0].segment<3>(4), path.y[0].segment<3>(7));
+  const std::vector<PlacedState> nodes = node_states(rod, path);
+  set_shape(result, rod, states_at(station_places(rod, turns_of(rod, nodes)), rod, path));
+  result.tendon_shortening_mm = tendon_shortening_mm(rod, nodes);
   result.error_estimate_mm = error * rod.length_mm;
   result.model.emplace_back("intervals", static_cast<int>(path.shooting.mesh().size()));
   result.model.emplace_back("unknowns", core_size * static_cast<int>(path.y.size()));

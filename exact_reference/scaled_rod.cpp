@@ -21,24 +21,48 @@ Vector3d shear_compliance_per_N(const scene::Stiffness& stiffness, RodModel mode
   return compliance;
 }
 
+void set_tendon_paths(ScaledRod& rod, const scene::Scene& scene) {
+  for (const scene::Load& load : scene.loads) {
+    const auto* tendon = std::get_if<scene::Tendon>(&load);
+    if (tendon == nullptr) continue;
+    const Vector3d arm_S = Vector3d(0, tendon->offset_mm[0], tendon->offset_mm[1]) / rod.length_mm;
+    const auto known = std::find(rod.tendon_arms_S.begin(), rod.tendon_arms_S.end(), arm_S);
+    TendonPath& path = rod.tendon_paths.emplace_back();
+    path.arm = static_cast<std::size_t>(known - rod.tendon_arms_S.begin());
+    if (known == rod.tendon_arms_S.end()) rod.tendon_arms_S.push_back(arm_S);
+    const auto middle_lies_beyond = [](double to, const ScaledSpan& span) { return to < (span.start + span.end) / 2; };
+    path.spans = static_cast<std::size_t>(
+        std::upper_bound(rod.spans.begin(), rod.spans.end(), tendon->to_mm / rod.length_mm, middle_lies_beyond) -
+        rod.spans.begin());
+  }
+}
+
 }  // namespace
 
 double ScaledRod::load_size() const {
-  double size = 0, compliance = 0;
+  double size = 0, tendons = 0, compliance = 0;
   for (const ScaledSpan& span : spans) {
     for (const scene::Wrench* load : {&span.follower_load_S, &span.fixed_load_B}) {
       size += load->force_N.norm() + load->moment_Nmm.norm();
     }
+    size += span.fixed_force_arms_BS.norm();
     size += span.length() * (span.follower_density_S.norm() + span.fixed_density_B.norm());
     compliance = std::max(compliance, span.bending_compliance.maxCoeff());
+    double pull = 0;
+    for (const ScaledTendon& tendon : span.tendons) pull += tendon.tension * tendon.arm_S.norm();
+    tendons = std::max(tendons, pull);
   }
-  return size * compliance;
+  return (size + tendons) * compliance;
 }
 
 bool ScaledRod::has_fixed_load() const {
   return std::any_of(spans.begin(), spans.end(), [](const ScaledSpan& span) {
-    return !span.fixed_load_B.is_zero() || !span.fixed_density_B.isZero(0);
+    return !span.fixed_load_B.is_zero() || !span.fixed_force_arms_BS.isZero(0) || !span.fixed_density_B.isZero(0);
   });
+}
+
+bool ScaledRod::has_tendon() const {
+  return std::any_of(spans.begin(), spans.end(), [](const ScaledSpan& span) { return !span.tendons.empty(); });
 }
 
 bool ScaledRod::has_fixed_moment() const {
@@ -65,6 +89,7 @@ ScaledRod scaled_rod(const scene::Scene& scene, RodModel model) {
   ScaledRod rod;
   rod.length_mm = length;
   rod.symmetry = scene::symmetry_of(spans);
+  rod.plane_normal_B = scene::plane_normal(spans);
   rod.force_unit_N = bending / length / length;
   rod.moment_unit_Nmm = bending / length;
   const auto scaled = [&](const scene::Wrench& wrench) {
@@ -83,8 +108,12 @@ ScaledRod scaled_rod(const scene::Scene& scene, RodModel model) {
     out.fixed_density_B = length / rod.force_unit_N * span.fixed_force_B_N_per_mm;
     out.follower_load_S = scaled(span.follower_load_S);
     out.fixed_load_B = scaled(span.fixed_load_B);
-    out.tendon_S = scaled(span.tendon_S);
+    out.fixed_force_arms_BS = span.fixed_force_arms_BS_Nmm / rod.moment_unit_Nmm;
+    for (const scene::SectionTendon& tendon : span.tendons) {
+      out.tendons.push_back({tendon.arm_S_mm / length, tendon.tension_N / rod.force_unit_N});
+    }
   }
+  set_tendon_paths(rod, scene);
   return rod;
 }
 

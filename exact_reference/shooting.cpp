@@ -127,6 +127,17 @@ void Shooting::assemble(BandSystem& band, std::span<const int> components, const
   }
 }
 
+// A step's end that is not a number, from states that are.
+bool Shooting::tendon_collapses(const NodeStates& y, double load_factor) const {
+  if (!rod_.has_tendon()) return false;
+  for (std::size_t i = 0; i < mesh_.size(); ++i) {
+    const State start = start_state(y, load_factor, i);
+    if (!start.allFinite()) return false;
+    if (!runge_kutta_step(equations(i, load_factor), start, mesh_[i].length).allFinite()) return true;
+  }
+  return false;
+}
+
 Convergence Shooting::newton(NodeStates& y, double load_factor, double tolerance, int max_iterations) {
   constexpr double roundoff_range = 1e-9;
   Convergence result;
@@ -138,6 +149,10 @@ Convergence Shooting::newton(NodeStates& y, double load_factor, double tolerance
     assemble(*band_, all_components, y, load_factor, weight);
     if (!band_->factorise() || !band_->solve()) return result;
     const double* update = band_->vector();
+    if (!std::isfinite(update[0]) && tendon_collapses(y, load_factor)) {
+      result.tendon_collapsed = true;
+      return result;
+    }
     result.last_update = 0;
     for (std::size_t k = 0; k < y.size(); ++k) {
       const Eigen::Map<const Core> step(update + core_size * k);

@@ -26,6 +26,7 @@ using NodeStates = std::vector<State>;
 
 struct Convergence {
   bool converged = false;
+  bool tendon_collapsed = false;  // given up because a tendon's path has no length somewhere
   int iterations = 0;
   double last_update = 0;  // largest change of a component; rotations in half radians, wrenches relative to the largest
 };
@@ -77,6 +78,7 @@ class Shooting {
   Core weights(const NodeStates& y) const;  // 1 for q, 1/(1 + largest) for N and M
   void assemble(BandSystem& band, std::span<const int> components, const NodeStates& y, double load_factor,
                 const Core& weight) const;
+  bool tendon_collapses(const NodeStates& y, double load_factor) const;
   std::vector<Core> residual(const NodeStates& y, double load_factor) const;
   double local_error(const NodeStates& y, double load_factor, const Core& weight, std::size_t i) const;
   void split(NodeStates& y, double load_factor, const std::vector<int>& parts);

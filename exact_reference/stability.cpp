@@ -35,10 +35,11 @@ IntervalForm interval_form(const RodEquations& rod, const State& start, double l
 std::optional<int> falling_directions(const Shooting& shooting, const NodeStates& y, double load) {
   constexpr double neutral = 1e-11;  // of the interval's own form
   int count = 0;
-  Matrix3d beyond = Matrix3d::Zero();  // form of everything distal, as a function of the rotation here; free tip: none
+  Matrix3d beyond = Matrix3d::Zero();  // form of everything distal, as a function of the rotation here
   for (std::size_t i = shooting.mesh().size(); i-- > 0;) {
     const IntervalForm form =
         interval_form(shooting.equations(i, load), shooting.start_state(y, load, i), shooting.mesh()[i].length);
+    if (shooting.mesh()[i].ends_span) beyond += shooting.equations(i, load).arms_second_variation(y[i + 1]);
     const Matrix3d pivot = form.end_end + beyond;
     // Measured by the interval's own form, so that stiff and soft axes count alike; signs are the same (Sylvester).
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix3d> eigen(pivot, form.end_end, Eigen::EigenvaluesOnly);
