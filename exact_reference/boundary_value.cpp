@@ -99,9 +99,11 @@ double try_step(Path& path, const std::vector<Core>& tangent, double step) {
   const Convergence newton = path.newton(corrected, path.load + step, 1e-8, 8);
   const double miss = largest_turn(corrected, predicted);
   const bool jumped = !(miss <= largest_miss_rad) || !(largest_turn(corrected, path.y) <= largest_turn_rad);
+  if (getenv("DBG")) fprintf(stderr, "load %.17g step %.3g conv %d it %d upd %.2g miss %.3g turn %.3g n %zu\n", path.load, step, newton.converged, newton.iterations, newton.last_update, miss, largest_turn(corrected, path.y), path.shooting.mesh().size());
   if (!newton.converged || jumped) return HUGE_VAL;
   Determinant determinant;
   if (watches_determinant(path)) determinant = path.shooting.determinant(corrected, path.load + step);
+  if (getenv("DBG")) fprintf(stderr, "   det %d %d log %g last %g\n", determinant.negative, path.determinant.negative, determinant.log_size, path.determinant.log_size);
   if (determinant.negative != path.determinant.negative) return HUGE_VAL;
   if (path.watch_stability && falling_directions(path.shooting, corrected, path.load + step).value_or(0) > 0) {
     if (step > smallest_bifurcation_step) return HUGE_VAL;

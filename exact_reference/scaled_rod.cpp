@@ -21,6 +21,31 @@ Vector3d shear_compliance_per_N(const scene::Stiffness& stiffness, RodModel mode
   return compliance;
 }
 
+// Turns a planar rod with equal sections about its axis into the x-y plane, and leaves nothing out of that.
+void turn_into_xy(ScaledRod& rod, const Eigen::Vector2d& direction) {
+  rod.symmetry = scene::Symmetry::plane_xy;
+  Eigen::Matrix3d& Q = rod.turn_about_axis;
+  Q.bottomRightCorner<2, 2>() << direction[0], direction[1], -direction[1], direction[0];
+  const auto in_plane = [&](Vector3d& v) {
+    v = Q * v;
+    v[2] = 0;
+  };
+  const auto about_normal = [&](Vector3d& v) { v = Vector3d(0, 0, Q.row(2).dot(v)); };
+  for (ScaledSpan& span : rod.spans) {
+    about_normal(span.rest_curvature_S);
+    for (Vector3d* density : {&span.follower_density_S, &span.fixed_density_B}) in_plane(*density);
+    for (scene::Wrench* load : {&span.follower_load_S, &span.fixed_load_B}) {
+      in_plane(load->force_N);
+      about_normal(load->moment_Nmm);
+    }
+    span.fixed_force_arms_BS = Q * span.fixed_force_arms_BS * Q.transpose();
+    span.fixed_force_arms_BS.row(2).setZero();
+    span.fixed_force_arms_BS.col(2).setZero();
+    for (ScaledTendon& tendon : span.tendons) tendon.arm_S = Q * tendon.arm_S;
+  }
+  for (Vector3d& arm : rod.tendon_arms_S) arm = Q * arm;
+}
+
 void set_tendon_paths(ScaledRod& rod, const scene::Scene& scene) {
   for (const scene::Load& load : scene.loads) {
     const auto* tendon = std::get_if<scene::Tendon>(&load);
@@ -114,6 +139,9 @@ ScaledRod scaled_rod(const scene::Scene& scene, RodModel model) {
     }
   }
   set_tendon_paths(rod, scene);
+  const std::optional<Eigen::Vector2d> direction = scene::plane_direction(spans);
+  const bool oblique = direction && (*direction)[0] != 0 && (*direction)[1] != 0;
+  if (oblique && scene::is_isotropic(spans)) turn_into_xy(rod, *direction);
   return rod;
 }
 

@@ -47,7 +47,10 @@ struct ScaledRod {
   std::vector<Eigen::Vector3d> tendon_arms_S;  // different ones
   std::vector<TendonPath> tendon_paths;        // in the order of the scene's loads
   scene::Symmetry symmetry = scene::Symmetry::none;
-  std::optional<Eigen::Vector3d> plane_normal_B;  // of a planar scene
+  std::optional<Eigen::Vector3d> plane_normal_B;  // of a planar scene, in the scene's base frame
+  // From the scene's frames, base and section alike, to those here. The identity but for a rod that bends in an oblique
+  // plane: it is turned about its axis, that plane to x-y, so that the symmetry is exact in rounded numbers, too.
+  Eigen::Matrix3d turn_about_axis = Eigen::Matrix3d::Identity();
 
   // Sum of all forces and moments, the tendons' bending included, times the largest compliance: below 1 nothing
   // buckles.

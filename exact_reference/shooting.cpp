@@ -212,8 +212,13 @@ double Shooting::local_error(const NodeStates& y, double load_factor, const Core
                   difference.tail<3>().lpNorm<Eigen::Infinity>());
 }
 
+double Shooting::largest_growth(std::size_t i, const State& start) const {
+  const ScaledSpan& span = rod_.spans[mesh_[i].span];
+  return mesh_[i].length * std::sqrt(start.segment<3>(4).norm() * span.bending_compliance.tail<2>().maxCoeff());
+}
+
 bool Shooting::refine(NodeStates& y, double load_factor, double tolerance, int max_intervals) {
-  constexpr double most_parts = 8;
+  constexpr double most_parts = 8, growth_per_interval = 2;
   const Core weight = weights(y);
   std::vector<int> parts(mesh_.size());
   long total = 0;
@@ -221,7 +226,10 @@ bool Shooting::refine(NodeStates& y, double load_factor, double tolerance, int m
     const double error = local_error(y, load_factor, weight, i);
     const double wanted =
         std::isfinite(error) ? std::pow(error / tolerance, 1.0 / (runge_kutta_order + 1)) : most_parts;
-    parts[i] = wanted <= 1 ? 1 : static_cast<int>(std::ceil(std::clamp(wanted, 2.0, most_parts)));
+    const double growth = largest_growth(i, start_state(y, load_factor, i)) / growth_per_interval;
+    parts[i] = std::max(wanted, growth) <= 1
+                   ? 1
+                   : static_cast<int>(std::ceil(std::clamp(std::max(wanted, growth), 2.0, most_parts)));
     total += parts[i];
   }
   if (total == static_cast<long>(mesh_.size()) || total > max_intervals) return false;

@@ -81,6 +81,8 @@ class Shooting {
   bool tendon_collapses(const NodeStates& y, double load_factor) const;
   std::vector<Core> residual(const NodeStates& y, double load_factor) const;
   double local_error(const NodeStates& y, double load_factor, const Core& weight, std::size_t i) const;
+  // Exponent by which a small motion grows or decays along an interval, at most: of a taut rod, h sqrt(|N|/EI).
+  double largest_growth(std::size_t i, const State& start) const;
   void split(NodeStates& y, double load_factor, const std::vector<int>& parts);
 
   const ScaledRod& rod_;

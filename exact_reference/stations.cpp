@@ -142,15 +142,16 @@ std::vector<Turn> turns_of(const ScaledRod& rod, const std::vector<PlacedState>&
 
 void set_shape(scene::Equilibrium& result, const ScaledRod& rod, const std::vector<PlacedState>& states) {
   SpanFinder spans(rod);
+  const Matrix3d back = rod.turn_about_axis.transpose();
   for (const auto& [place, y] : states) {
     const RodEquations equations(rod.spans[spans.at(place)], 1);
     const Matrix3d R = rotation_of(y.head<4>().normalized());
     const scene::Wrench own =
         equations.own_wrench_S(R.transpose() * y.segment<3>(4), R.transpose() * y.segment<3>(7));
     result.stations.push_back({place * rod.length_mm,
-                               {R, rod.length_mm * y.tail<3>()},
-                               rod.force_unit_N * (R * own.force_N),
-                               rod.moment_unit_Nmm * (R * own.moment_Nmm)});
+                               {back * R * back.transpose(), rod.length_mm * (back * y.tail<3>())},
+                               rod.force_unit_N * (back * R * own.force_N),
+                               rod.moment_unit_Nmm * (back * R * own.moment_Nmm)});
   }
   result.tip_angle_rad = scene::tip_angle_rad(result.stations, rod.plane_normal_B);
 }
