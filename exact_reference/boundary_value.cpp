@@ -4,6 +4,8 @@
 #include "exact_reference/stability.h"
 #include "exact_reference/stations.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -22,6 +24,7 @@ constexpr int most_load_steps = 3000;
 constexpr double most_work =
     500'000;  // intervals, summed over Newton's iterations: seconds; all our scenes need 26 000
 constexpr double most_rest_turn_rad = 1e4;  // two intervals a radian, and so seconds, too
+constexpr double collapsed_tangent = 1e-4;  // of a tendon where the load cannot grow
 constexpr double smallest_step = 1e-8;      // of the load reached or of the first step, whichever is larger
 
 // Largest rotation between two sets of node states; a small quaternion change is half a rotation.
@@ -99,11 +102,9 @@ double try_step(Path& path, const std::vector<Core>& tangent, double step) {
   const Convergence newton = path.newton(corrected, path.load + step, 1e-8, 8);
   const double miss = largest_turn(corrected, predicted);
   const bool jumped = !(miss <= largest_miss_rad) || !(largest_turn(corrected, path.y) <= largest_turn_rad);
-  if (getenv("DBG")) fprintf(stderr, "load %.17g step %.3g conv %d it %d upd %.2g miss %.3g turn %.3g n %zu\n", path.load, step, newton.converged, newton.iterations, newton.last_update, miss, largest_turn(corrected, path.y), path.shooting.mesh().size());
   if (!newton.converged || jumped) return HUGE_VAL;
   Determinant determinant;
   if (watches_determinant(path)) determinant = path.shooting.determinant(corrected, path.load + step);
-  if (getenv("DBG")) fprintf(stderr, "   det %d %d log %g last %g\n", determinant.negative, path.determinant.negative, determinant.log_size, path.determinant.log_size);
   if (determinant.negative != path.determinant.negative) return HUGE_VAL;
   if (path.watch_stability && falling_directions(path.shooting, corrected, path.load + step).value_or(0) > 0) {
     if (step > smallest_bifurcation_step) return HUGE_VAL;
@@ -164,13 +165,15 @@ bool follow_load(Path& path) {
 // Negative: not converged.
 double solve_accurately(Path& path, double tolerance) {
   const double local_tolerance = std::max(tolerance / 20, 1e-14);
+  constexpr double undetermined = 1e-11;  // an update that round-off keeps from falling further
+  double update = 0;
   const auto converge = [&] {
     const Convergence newton = path.newton(path.y, 1, 1e-15, 20);
+    update = newton.last_update;
     path.shooting.integrate_positions(path.y, 1);
     return newton.converged;
   };
   if (!converge() || !adapt(path, local_tolerance, 1e-15)) return -1;
-  const double roundoff = 4e-16 * std::sqrt(static_cast<double>(path.shooting.mesh().size()));
   double change = HUGE_VAL;
   for (int halvings = 0; halvings < 3; ++halvings) {
     const NodeStates coarse = path.y;
@@ -183,7 +186,8 @@ double solve_accurately(Path& path, double tolerance) {
     }
     if (change <= tolerance || change > last / 2) break;
   }
-  return change + roundoff;
+  const double roundoff = 4e-16 * std::sqrt(static_cast<double>(path.shooting.mesh().size()));
+  return change + roundoff + (update > undetermined ? update : 0);
 }
 
 std::vector<PlacedState> node_states(const ScaledRod& rod, const Path& path) {
@@ -221,6 +225,19 @@ void set_stability(scene::Equilibrium& result, const ScaledRod& rod, const Path&
   result.model.emplace_back("falling_directions", *falling);
 }
 
+// |v + u x r|, the least at a node.
+double shortest_tendon_tangent(const ScaledRod& rod, const Path& path) {
+  double shortest = HUGE_VAL;
+  for (std::size_t i = 0; i < path.shooting.mesh().size(); ++i) {
+    const ScaledSpan& span = rod.spans[static_cast<std::size_t>(path.shooting.mesh()[i].span)];
+    const Strains strains = path.shooting.equations(i, path.load).strains(path.y[i + 1]);
+    for (const ScaledTendon& tendon : span.tendons) {
+      shortest = std::min(shortest, (strains.stretch_S + strains.curvature_S.cross(tendon.arm_S)).norm());
+    }
+  }
+  return shortest;
+}
+
 double rest_turn_rad(const ScaledRod& rod) {
   double turn = 0;
   for (const ScaledSpan& span : rod.spans) turn += span.length() * span.rest_curvature_S.norm();
@@ -251,7 +268,7 @@ scene::Equilibrium solve_boundary_value(const ScaledRod& rod, double tolerance) 
     result.status = scene::Status::load_step_too_small;
     result.message =
         text("no equilibrium found next to the one at %.6g of the load: a fold, or too large a load", path.load);
-    if (path.tendon_collapsed) {
+    if (path.tendon_collapsed || shortest_tendon_tangent(rod, path) < collapsed_tangent) {
       result.status = scene::Status::tendon_collapsed;
       result.message = text("the path of a tendon has no length somewhere beyond %.6g of the load", path.load);
     } else if (path.exhausted() || path.steps > most_load_steps) {

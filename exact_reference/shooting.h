@@ -49,8 +49,8 @@ class Shooting {
   // The unloaded rod: clamp at the origin, rest curvature only.
   NodeStates unloaded() const;
 
-  // Newton's iteration without damping. Converged when an update is <= tolerance, or <= 1e-9 and no longer falling
-  // (round-off). Given up when not finite, when two updates grow in turn, or after max_iterations.
+  // Newton's iteration without damping. Converged when an update is <= tolerance, or no longer falling (round-off) and
+  // <= 1e-9, from the fifth on <= 1e-6 (a motion that next to nothing resists). Given up when not finite, when two updates grow in turn, or after max_iterations.
   Convergence newton(NodeStates& y, double load_factor, double tolerance, int max_iterations);
 
   // d(states)/d(load_factor) at a solution; zero if the matrix is singular there.
@@ -77,17 +77,19 @@ class Shooting {
  private:
   Core weights(const NodeStates& y) const;  // 1 for q, 1/(1 + largest) for N and M
   void assemble(BandSystem& band, std::span<const int> components, const NodeStates& y, double load_factor,
-                const Core& weight) const;
+                const Core& weight, std::vector<double>* volume_changes = nullptr) const;
   bool tendon_collapses(const NodeStates& y, double load_factor) const;
   std::vector<Core> residual(const NodeStates& y, double load_factor) const;
   double local_error(const NodeStates& y, double load_factor, const Core& weight, std::size_t i) const;
-  // Exponent by which a small motion grows or decays along an interval, at most: of a taut rod, h sqrt(|N|/EI).
-  double largest_growth(std::size_t i, const State& start) const;
   void split(NodeStates& y, double load_factor, const std::vector<int>& parts);
 
   const ScaledRod& rod_;
   Mesh mesh_;
   std::unique_ptr<BandSystem> band_;
+  // |det - 1| of each interval's sensitivity in Newton's last iteration. The exact one is 1 (the equations' Jacobian has
+  // no trace): what grows along the interval and what decays, both must be resolved, though a straight taut rod or a
+  // rod with next to no torsional stiffness shows nothing of it in its shape.
+  std::vector<double> volume_changes_;
 };
 
 }  // namespace exact_reference
