@@ -16,7 +16,6 @@ namespace {
 
 constexpr int initial_intervals = 16;
 constexpr int max_intervals = 400'000;
-constexpr double continuation_local_error = 1e-6;
 constexpr double largest_miss_rad = 0.1;  // corrected against predicted rotation
 constexpr double largest_turn_rad = 0.8;  // of any section in a load step
 constexpr double first_turn_rad = 0.1;
@@ -116,13 +115,18 @@ double try_step(Path& path, const std::vector<Core>& tangent, double step) {
   return miss;
 }
 
+struct Tolerances {
+  double local_error, volume_change, newton;
+};
+constexpr Tolerances on_the_way{1e-6, 1e-3, 1e-8};
+
 // Refines until each local error is below the tolerance; Newton's iteration after each refinement.
-bool adapt(Path& path, double local_error, double newton_tolerance) {
+bool adapt(Path& path, const Tolerances& tolerances) {
   constexpr int most_rounds = 20;
   for (int round = 0; round < most_rounds; ++round) {
     path.shooting.integrate_positions(path.y, path.load);
-    if (!path.shooting.refine(path.y, path.load, local_error, max_intervals)) return true;
-    const Convergence newton = path.newton(path.y, path.load, newton_tolerance, 12);
+    if (!path.shooting.refine(path.y, path.load, tolerances.local_error, tolerances.volume_change, max_intervals)) return true;
+    const Convergence newton = path.newton(path.y, path.load, tolerances.newton, 12);
     if (!newton.converged) return false;
   }
   return true;
@@ -155,7 +159,7 @@ bool follow_load(Path& path) {
       if (step < smallest_step * std::max(path.load, first_step)) return false;
     }
     if (++path.steps > most_load_steps || path.exhausted()) return false;
-    if (!adapt(path, continuation_local_error, 1e-8)) return false;
+    if (!adapt(path, on_the_way)) return false;
     step *= std::clamp(std::sqrt(largest_miss_rad / 4 / std::max(miss, 1e-6)), 0.5, 3.0);
   }
   return true;
@@ -173,7 +177,7 @@ double solve_accurately(Path& path, double tolerance) {
     path.shooting.integrate_positions(path.y, 1);
     return newton.converged;
   };
-  if (!converge() || !adapt(path, local_tolerance, 1e-15)) return -1;
+  if (!converge() || !adapt(path, {local_tolerance, 1e-6, 1e-15})) return -1;
   double change = HUGE_VAL;
   for (int halvings = 0; halvings < 3; ++halvings) {
     const NodeStates coarse = path.y;
@@ -264,7 +268,7 @@ scene::Equilibrium solve_boundary_value(const ScaledRod& rod, double tolerance) 
   path.load_size = rod.load_size();
   path.watch_stability = !rod.has_follower_load() && !rod.has_fixed_moment();
   path.y = path.shooting.unloaded();
-  if (!adapt(path, continuation_local_error, 1e-8) || !follow_load(path)) {
+  if (!adapt(path, on_the_way) || !follow_load(path)) {
     result.status = scene::Status::load_step_too_small;
     result.message =
         text("no equilibrium found next to the one at %.6g of the load: a fold, or too large a load", path.load);

@@ -13,7 +13,6 @@ namespace {
 
 constexpr int clamp_rows = 4;
 constexpr double most_parts = 8;  // of an interval that is split
-constexpr double most_volume_change = 1e-3;
 
 // Of an interval whose error is this many times too large.
 double parts_for(double excess) {
@@ -155,20 +154,23 @@ Convergence Shooting::newton(NodeStates& y, double load_factor, double tolerance
   for (double last = HUGE_VAL; result.iterations < max_iterations; last = result.last_update) {
     ++result.iterations;
     const Core weight = weights(y);
+    const NodeStates before = y;
     if (!band_) band_ = band_system(all_components, mesh_.size());
     volume_changes_.resize(mesh_.size());
     assemble(*band_, all_components, y, load_factor, weight, &volume_changes_);
-    if (!band_->factorise() || !band_->solve()) return result;
-    const double* update = band_->vector();
-    if (!std::isfinite(update[0]) && tendon_collapses(y, load_factor)) {
-      result.tendon_collapsed = true;
+    if (!band_->factorise() || !band_->solve()) {
+      result.tendon_collapsed = tendon_collapses(y, load_factor);
       return result;
     }
+    const double* update = band_->vector();
     result.last_update = 0;
     for (std::size_t k = 0; k < y.size(); ++k) {
       const Eigen::Map<const Core> step(update + core_size * k);
       y[k].head<core_size>() -= step.cwiseQuotient(weight);
-      if (!step.allFinite()) return result;
+      if (!step.allFinite()) {
+        result.tendon_collapsed = tendon_collapses(before, load_factor);
+        return result;
+      }
       result.last_update = std::max(result.last_update, step.lpNorm<Eigen::Infinity>());
     }
     const double roundoff_range = result.iterations < many_iterations ? 1e-9 : 1e-6;
@@ -224,7 +226,8 @@ double Shooting::local_error(const NodeStates& y, double load_factor, const Core
                   difference.tail<3>().lpNorm<Eigen::Infinity>());
 }
 
-bool Shooting::refine(NodeStates& y, double load_factor, double tolerance, int max_intervals) {
+bool Shooting::refine(NodeStates& y, double load_factor, double tolerance, double most_volume_change,
+                      int max_intervals) {
   const Core weight = weights(y);
   std::vector<int> parts(mesh_.size());
   long total = 0;

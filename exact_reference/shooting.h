@@ -57,8 +57,9 @@ class Shooting {
   std::vector<Core> tangent(const NodeStates& y, double load_factor);
 
   // Splits the intervals whose step disagrees with two half steps by more than the tolerance (components as in
-  // Convergence, position over L). Returns whether any was split; more than max_intervals: no split, false.
-  bool refine(NodeStates& y, double load_factor, double tolerance, int max_intervals);
+  // Convergence, position over L), or whose sensitivity's volume changes by more than that. Returns whether any was split; more than max_intervals: no split, false.
+  bool refine(NodeStates& y, double load_factor, double tolerance, double most_volume_change,
+              int max_intervals);
   void halve(NodeStates& y, double load_factor);
 
   // Of the equations' derivatives, as they act on motions in the plane of the rod's symmetry if there is one. It does
@@ -74,6 +75,11 @@ class Shooting {
 
   const Mesh& mesh() const { return mesh_; }
 
+  // |det - 1| of each interval's sensitivity in Newton's last iteration, if the mesh is still that one. The exact one is
+  // 1 (the equations' Jacobian has no trace): what grows along the interval and what decays, both must be resolved,
+  // though a straight taut rod or a rod with next to no torsional stiffness shows nothing of it in its shape.
+  const std::vector<double>& volume_changes() const { return volume_changes_; }
+
  private:
   Core weights(const NodeStates& y) const;  // 1 for q, 1/(1 + largest) for N and M
   void assemble(BandSystem& band, std::span<const int> components, const NodeStates& y, double load_factor,
@@ -86,9 +92,6 @@ class Shooting {
   const ScaledRod& rod_;
   Mesh mesh_;
   std::unique_ptr<BandSystem> band_;
-  // |det - 1| of each interval's sensitivity in Newton's last iteration. The exact one is 1 (the equations' Jacobian has
-  // no trace): what grows along the interval and what decays, both must be resolved, though a straight taut rod or a
-  // rod with next to no torsional stiffness shows nothing of it in its shape.
   std::vector<double> volume_changes_;
 };
 

@@ -6,7 +6,8 @@
 //   x = x0 + C (W - g(x))     g = sum T A^T t/|t|     S = dg/dx = sum (T/|t|) A^T (I - t t^T/|t|^2) A >= 0
 //
 // With C = D^2, x = x0 + D z, this is the minimum of the strictly convex 1/2 z.z + sum T |t| - W.D z, which Newton's
-// iteration with a line search always finds, zeros in C included; dx/dW = D (I + D S D)^-1 D = (I + C S)^-1 C.
+// iteration with a line search finds, zeros in C included; dx/dW = D (I + D S D)^-1 D = (I + C S)^-1 C. Near a |t| of
+// zero, where the energy has a kink, from the minima of energies with the kink rounded off less and less.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,11 +39,16 @@ class TendonStrains {
   Matrix6d strains_by_wrench(const Vector6d& strains) const;  // symmetric
 
   // g: moment and force with which the tendons press the section.
-  Vector6d pull(const Vector6d& strains) const;
+  Vector6d pull(const Vector6d& strains) const { return pull(strains, 0); }
 
  private:
-  Matrix6d hessian(const Vector6d& strains) const;  // I + D S D
-  double energy(const Vector6d& z, const Vector6d& weighted_wrench) const;
+  // With T sqrt(|t|^2 + rounding^2) for T |t|. The Hessian is I + D S D.
+  Vector6d pull(const Vector6d& strains, double rounding) const;
+  Matrix6d hessian(const Vector6d& strains, double rounding) const;
+  double energy(const Vector6d& z, const Vector6d& weighted_wrench, double rounding) const;
+  bool newton(Vector6d& z, const Vector6d& weighted_wrench, double rounding) const;
+
+  double shortest_tangent(const Vector6d& z) const;
 
   std::span<const ScaledTendon> tendons_;
   double load_factor_;
