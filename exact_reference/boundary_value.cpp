@@ -4,6 +4,8 @@
 #include "exact_reference/stability.h"
 #include "exact_reference/stations.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -14,7 +16,6 @@ namespace {
 
 constexpr int initial_intervals = 16;
 constexpr int max_intervals = 400'000;
-constexpr double continuation_local_error = 1e-6;
 constexpr double largest_miss_rad = 0.1;  // corrected against predicted rotation
 constexpr double largest_turn_rad = 0.8;  // of any section in a load step
 constexpr double first_turn_rad = 0.1;
@@ -22,6 +23,7 @@ constexpr int most_load_steps = 3000;
 constexpr double most_work =
     500'000;  // intervals, summed over Newton's iterations: seconds; all our scenes need 26 000
 constexpr double most_rest_turn_rad = 1e4;  // two intervals a radian, and so seconds, too
+constexpr double collapsed_tangent = 1e-4;  // of a tendon where the load cannot grow
 constexpr double smallest_step = 1e-8;      // of the load reached or of the first step, whichever is larger
 
 // Largest rotation between two sets of node states; a small quaternion change is half a rotation.
@@ -40,6 +42,7 @@ struct Path {
   int newton_iterations = 0;
   std::size_t fewest_intervals = shooting.mesh().size();
   double work = 0;
+  bool tendon_collapsed = false;  // in the last iteration
   bool watch_stability = false;  // conservative, and stable so far
   scene::Symmetry symmetry = scene::Symmetry::none;
   double load_size = 0;          // of ScaledRod
@@ -50,6 +53,7 @@ struct Path {
   Convergence newton(NodeStates& states, double load_factor, double tolerance, int max_iterations) {
     const Convergence result = shooting.newton(states, load_factor, tolerance, max_iterations);
     newton_iterations += result.iterations;
+    tendon_collapsed = result.tendon_collapsed;
     work += static_cast<double>(result.iterations) * static_cast<double>(shooting.mesh().size());
     return result;
   }
@@ -111,13 +115,18 @@ double try_step(Path& path, const std::vector<Core>& tangent, double step) {
   return miss;
 }
 
+struct Tolerances {
+  double local_error, volume_change, newton;
+};
+constexpr Tolerances on_the_way{1e-6, 1e-3, 1e-8};
+
 // Refines until each local error is below the tolerance; Newton's iteration after each refinement.
-bool adapt(Path& path, double local_error, double newton_tolerance) {
+bool adapt(Path& path, const Tolerances& tolerances) {
   constexpr int most_rounds = 20;
   for (int round = 0; round < most_rounds; ++round) {
     path.shooting.integrate_positions(path.y, path.load);
-    if (!path.shooting.refine(path.y, path.load, local_error, max_intervals)) return true;
-    const Convergence newton = path.newton(path.y, path.load, newton_tolerance, 12);
+    if (!path.shooting.refine(path.y, path.load, tolerances.local_error, tolerances.volume_change, max_intervals)) return true;
+    const Convergence newton = path.newton(path.y, path.load, tolerances.newton, 12);
     if (!newton.converged) return false;
   }
   return true;
@@ -150,60 +159,66 @@ bool follow_load(Path& path) {
       if (step < smallest_step * std::max(path.load, first_step)) return false;
     }
     if (++path.steps > most_load_steps || path.exhausted()) return false;
-    if (!adapt(path, continuation_local_error, 1e-8)) return false;
+    if (!adapt(path, on_the_way)) return false;
     step *= std::clamp(std::sqrt(largest_miss_rad / 4 / std::max(miss, 1e-6)), 0.5, 3.0);
   }
   return true;
 }
 
-// Tip error over L, estimated by the change that halving the mesh makes; keeps the finer mesh. Negative: not converged.
+// Largest error of a node's position over L, estimated by the change that halving the mesh makes; keeps the finer mesh.
+// Negative: not converged.
 double solve_accurately(Path& path, double tolerance) {
   const double local_tolerance = std::max(tolerance / 20, 1e-14);
+  constexpr double undetermined = 1e-11;  // an update that round-off keeps from falling further
+  double update = 0;
   const auto converge = [&] {
     const Convergence newton = path.newton(path.y, 1, 1e-15, 20);
+    update = newton.last_update;
     path.shooting.integrate_positions(path.y, 1);
     return newton.converged;
   };
-  if (!converge() || !adapt(path, local_tolerance, 1e-15)) return -1;
-  const double roundoff = 4e-16 * std::sqrt(static_cast<double>(path.shooting.mesh().size()));
+  if (!converge() || !adapt(path, {local_tolerance, 1e-6, 1e-15})) return -1;
   double change = HUGE_VAL;
   for (int halvings = 0; halvings < 3; ++halvings) {
-    const Eigen::Vector3d coarse_tip = path.y.back().tail<3>();
+    const NodeStates coarse = path.y;
     path.shooting.halve(path.y, 1);
     if (!converge()) return -1;
     const double last = change;
-    change = (path.y.back().tail<3>() - coarse_tip).norm();
+    change = 0;
+    for (std::size_t k = 0; k < coarse.size(); ++k) {
+      change = std::max(change, (path.y[2 * k].tail<3>() - coarse[k].tail<3>()).norm());
+    }
     if (change <= tolerance || change > last / 2) break;
   }
-  return change + roundoff;
+  const double roundoff = 4e-16 * std::sqrt(static_cast<double>(path.shooting.mesh().size()));
+  return change + roundoff + (update > undetermined ? update : 0);
 }
 
-double turning_rad(const Path& path) {
-  double turning = 0;
-  for (std::size_t i = 0; i < path.shooting.mesh().size(); ++i) {
-    const State y = path.shooting.start_state(path.y, 1, i);
-    const Eigen::Vector3d moment_S = rotation_of(y.head<4>()).transpose() * y.segment<3>(7);
-    turning += path.shooting.mesh()[i].length * path.shooting.equations(i, 1).curvature_S(moment_S).norm();
-  }
-  return turning;
-}
-
-// Each station by a step of its own from the node before it, so that it is as accurate as the nodes.
-std::vector<scene::Station> stations_of(const ScaledRod& rod, const Path& path) {
+std::vector<PlacedState> node_states(const ScaledRod& rod, const Path& path) {
   const Mesh& mesh = path.shooting.mesh();
-  std::vector<scene::Station> stations;
-  std::size_t i = 0;
-  for (const double place : station_places(rod, equal_parts_for(turning_rad(path)))) {
-    while (i + 1 < mesh.size() && place >= mesh[i + 1].start) ++i;
-    State y = path.shooting.start_state(path.y, 1, i);
-    if (place >= rod.spans.back().end) {
-      y = path.y.back();
-    } else if (place > mesh[i].start) {
-      y = runge_kutta_step(path.shooting.equations(i, 1), y, place - mesh[i].start);
-    }
-    stations.push_back(station_of(rod, place, y.head<4>(), y.tail<3>()));
+  std::vector<PlacedState> states{{0, path.y[0]}};
+  for (std::size_t i = 0; i < mesh.size(); ++i) {
+    const double span_end = rod.spans[static_cast<std::size_t>(mesh[i].span)].end;
+    states.push_back({mesh[i].ends_span ? span_end : mesh[i + 1].start, path.y[i + 1]});
   }
-  return stations;
+  return states;
+}
+
+// Each by a step of its own from the node before it, so that it is as accurate as the nodes.
+std::vector<PlacedState> states_at(const std::vector<double>& places, const ScaledRod& rod, const Path& path) {
+  const Mesh& mesh = path.shooting.mesh();
+  std::vector<PlacedState> states{{0, path.y[0]}};
+  std::size_t i = 0;
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    while (i + 1 < mesh.size() && places[k] > mesh[i + 1].start) ++i;
+    State y = path.y[i + 1];
+    if (!(mesh[i].ends_span && places[k] >= rod.spans[static_cast<std::size_t>(mesh[i].span)].end)) {
+      y = runge_kutta_step(path.shooting.equations(i, 1), path.shooting.start_state(path.y, 1, i),
+                           places[k] - mesh[i].start);
+    }
+    states.push_back({places[k], y});
+  }
+  return states;
 }
 
 void set_stability(scene::Equilibrium& result, const ScaledRod& rod, const Path& path) {
@@ -212,6 +227,19 @@ void set_stability(scene::Equilibrium& result, const ScaledRod& rod, const Path&
   if (!falling) return;
   result.stable = *falling == 0;
   result.model.emplace_back("falling_directions", *falling);
+}
+
+// |v + u x r|, the least at a node.
+double shortest_tendon_tangent(const ScaledRod& rod, const Path& path) {
+  double shortest = HUGE_VAL;
+  for (std::size_t i = 0; i < path.shooting.mesh().size(); ++i) {
+    const ScaledSpan& span = rod.spans[static_cast<std::size_t>(path.shooting.mesh()[i].span)];
+    const Strains strains = path.shooting.equations(i, path.load).strains(path.y[i + 1]);
+    for (const ScaledTendon& tendon : span.tendons) {
+      shortest = std::min(shortest, (strains.stretch_S + strains.curvature_S.cross(tendon.arm_S)).norm());
+    }
+  }
+  return shortest;
 }
 
 double rest_turn_rad(const ScaledRod& rod) {
@@ -240,12 +268,15 @@ scene::Equilibrium solve_boundary_value(const ScaledRod& rod, double tolerance) 
   path.load_size = rod.load_size();
   path.watch_stability = !rod.has_follower_load() && !rod.has_fixed_moment();
   path.y = path.shooting.unloaded();
-  if (!adapt(path, continuation_local_error, 1e-8) || !follow_load(path)) {
+  if (!adapt(path, on_the_way) || !follow_load(path)) {
     result.status = scene::Status::load_step_too_small;
     result.message =
         text("no equilibrium found next to the one at %.6g of the load: a fold, or too large a load", path.load);
-    if (path.exhausted() || path.steps > most_load_steps) {
-      result.status = scene::Status::not_converged;
+    if (path.tendon_collapsed || shortest_tendon_tangent(rod, path) < collapsed_tangent) {
+      result.status = scene::Status::tendon_collapsed;
+      result.message = text("the path of a tendon has no length somewhere beyond %.6g of the load", path.load);
+    } else if (path.exhausted() || path.steps > most_load_steps) {
+      result.status = scene::Status::work_limit;
       result.message = text("given up at %.6g of the load: a rod that turns so much takes too many steps", path.load);
     }
     return result;
@@ -259,9 +290,9 @@ scene::Equilibrium solve_boundary_value(const ScaledRod& rod, double tolerance) 
     return result;
   }
   result.status = scene::Status::converged;
-  result.stations = stations_of(rod, path);
-  result.tip_angle_rad = scene::total_angle_rad(result.stations);
-  set_base_wrench(result, rod, path.y[0].segment<3>(4), path.y[0].segment<3>(7));
+  const std::vector<PlacedState> nodes = node_states(rod, path);
+  set_shape(result, rod, states_at(station_places(rod, turns_of(rod, nodes)), rod, path));
+  result.tendon_shortening_mm = tendon_shortening_mm(rod, nodes);
   result.error_estimate_mm = error * rod.length_mm;
   result.model.emplace_back("intervals", static_cast<int>(path.shooting.mesh().size()));
   result.model.emplace_back("unknowns", core_size * static_cast<int>(path.y.size()));

@@ -3,6 +3,8 @@
 #include "exact_reference/rod_equations.h"
 #include "exact_reference/stations.h"
 
+#include <Eigen/Geometry>
+
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
@@ -21,18 +23,29 @@ using Eigen::Vector4d;
 // T). The independent variable is the arc length from the tip.
 using MarchState = Eigen::Matrix<double, 13, 1>;
 
-int march_derivative(realtype, N_Vector y_vector, N_Vector dy_vector, void* equations) {
-  const RodEquations& rod = *static_cast<const RodEquations*>(equations);
+// The equations of a span, and whether a tendon's path lost its length where they were last evaluated.
+struct MarchedSpan {
+  RodEquations rod;
+  bool has_tendon = false;
+  bool tendon_collapsed = false;
+};
+
+int march_derivative(realtype, N_Vector y_vector, N_Vector dy_vector, void* marched_span) {
+  MarchedSpan& span = *static_cast<MarchedSpan*>(marched_span);
+  const RodEquations& rod = span.rod;
   const Eigen::Map<const MarchState> y(N_VGetArrayPointer(y_vector));
   Eigen::Map<MarchState> dy(N_VGetArrayPointer(dy_vector));
   const Vector4d q = y.head<4>();
   const Vector3d n = y.segment<3>(4), m = y.segment<3>(7);
+  const auto [u, v] = rod.strains_S(n, m);
   Vector3d dn, dm;
-  rod.wrench_derivative_S(n, m, dn, dm);
-  dy.head<4>() = -quaternion_derivative(q, rod.curvature_S(m));
+  rod.wrench_derivative_S(n, m, {u, v}, dn, dm);
+  dy.head<4>() = -quaternion_derivative(q, u);
   dy.segment<3>(4) = -dn;
   dy.segment<3>(7) = -dm;
-  dy.tail<3>() = -(rotation_of(q) * rod.stretch_S(n));
+  dy.tail<3>() = -(rotation_of(q) * v);
+  span.tendon_collapsed = span.has_tendon && y.allFinite() && !u.allFinite();
+  if (span.tendon_collapsed) return 1;  // a shorter step may do
   return dy.allFinite() ? 0 : -1;
 }
 
@@ -64,8 +77,8 @@ class Integrator {
   Eigen::Map<MarchState> state() { return Eigen::Map<MarchState>(N_VGetArrayPointer(vector_)); }
 
   // Forgets the steps taken so far: the equations change at t.
-  void restart(double t, RodEquations& rod) {
-    CVodeSetUserData(cvode_, &rod);
+  void restart(double t, MarchedSpan& span) {
+    CVodeSetUserData(cvode_, &span);
     state().head<4>().normalize();
     CVodeReInit(cvode_, t, vector_);
   }
@@ -92,10 +105,18 @@ class Integrator {
 
 struct March {
   bool finished = false;
+  bool tendon_collapsed = false;
   std::vector<MarchState> states;  // at the places given, clamp first
   double invariant_drift = 0;      // of |n| and m.n within a span, relative
   long steps = 0;
 };
+
+Vector4d product(const Vector4d& a, const Vector4d& b) {
+  const Vector3d v = a.tail<3>(), w = b.tail<3>();
+  Vector4d q;
+  q << a[0] * b[0] - v.dot(w), a[0] * w + b[0] * v + v.cross(w);
+  return q;
+}
 
 double drift(const MarchState& a, const MarchState& b) {
   const Vector3d n0 = a.segment<3>(4), m0 = a.segment<3>(7), n1 = b.segment<3>(4), m1 = b.segment<3>(7);
@@ -110,95 +131,113 @@ March march(const ScaledRod& rod, const std::vector<double>& places, double tole
   integrator.state()[0] = 1;
   const double tip = rod.spans.back().end;
   std::size_t k = places.size() - 1;
-  result.states[k] = integrator.state();
   for (auto span = rod.spans.rbegin(); span != rod.spans.rend(); ++span) {
-    RodEquations equations(*span, 1);
+    MarchedSpan marched{RodEquations(*span, 1), !span->tendons.empty()};
     integrator.state().segment<3>(4) += span->follower_load_S.force_N;
     integrator.state().segment<3>(7) += span->follower_load_S.moment_Nmm;
-    integrator.restart(tip - span->end, equations);
-    const MarchState start = integrator.state();
+    integrator.restart(tip - span->end, marched);
+    const MarchState start = result.states[k] = integrator.state();
     while (k > 0 && places[k] > span->start) {
       if (result.steps + integrator.steps() > most_steps) return result;
-      if (!integrator.advance_to(tip - places[--k])) return result;
+      if (!integrator.advance_to(tip - places[--k])) {
+        result.tendon_collapsed = marched.tendon_collapsed;
+        return result;
+      }
       result.states[k] = integrator.state();
     }
     result.steps += integrator.steps();
-    const bool invariant = span->follower_density_S.isZero(0) && span->tendon_S.is_zero();
+    const bool invariant = span->follower_density_S.isZero(0) ;
     if (invariant) result.invariant_drift = std::max(result.invariant_drift, drift(start, integrator.state()));
   }
   result.finished = true;
   return result;
 }
 
-// The stations in the base frame: the clamp's frame, which the march reaches last.
-std::vector<scene::Station> stations_of(const ScaledRod& rod, const std::vector<double>& places, const March& march) {
+// The states in the base frame: the clamp's frame, which the march reaches last.
+std::vector<PlacedState> states_in_base_frame(const std::vector<double>& places, const March& march) {
   const Vector4d clamp = march.states[0].head<4>().normalized();
   const Vector4d clamp_inverse(clamp[0], -clamp[1], -clamp[2], -clamp[3]);
   const Eigen::Matrix3d R_BT = rotation_of(clamp_inverse);
-  std::vector<scene::Station> stations;
+  std::vector<PlacedState> states;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const MarchState& y = march.states[k];
-    scene::Station station = station_of(rod, places[k], y.head<4>(), R_BT * (y.tail<3>() - march.states[0].tail<3>()));
-    station.X_BS.rotation_BS = R_BT * station.X_BS.rotation_BS;
-    stations.push_back(station);
+    const Vector4d q = product(clamp_inverse, y.head<4>().normalized());
+    const Eigen::Matrix3d R = rotation_of(q);
+    PlacedState& state = states.emplace_back();
+    state.place = places[k];
+    state.state << q, R * y.segment<3>(4), R * y.segment<3>(7), R_BT * (y.tail<3>() - march.states[0].tail<3>());
   }
-  return stations;
+  return states;
 }
 
-double turning_rad(const ScaledRod& rod, const std::vector<double>& places, const March& march) {
-  double turning = 0;
-  std::size_t k = 1;
-  for (const ScaledSpan& span : rod.spans) {
-    const RodEquations equations(span, 1);
-    for (; k < places.size() && places[k] <= span.end; ++k) {
-      turning += (places[k] - places[k - 1]) * equations.curvature_S(march.states[k].segment<3>(7)).norm();
-    }
-  }
-  return turning;
-}
-
-// Two marches, the second with a tenth of the first one's tolerance, at more places where the rod turns much.
+// Two marches, the second with a tenth of the first one's tolerance.
 struct MarchPair {
   std::vector<double> places;
   March rough, fine;
   bool finished() const { return rough.finished && fine.finished; }
 };
 
-MarchPair march_twice(const ScaledRod& rod, double tolerance) {
+// Close enough together for the turn of the rod, which quick marches tell.
+std::vector<double> places_by_turn(const ScaledRod& rod) {
+  constexpr double tolerance = 1e-6;
+  constexpr int most_rounds = 8;
+  std::vector<double> places = station_places(rod);
+  for (int round = 0; round < most_rounds; ++round) {
+    const March quick = march(rod, places, tolerance);
+    if (!quick.finished) break;
+    std::vector<double> closer = station_places(rod, turns_of(rod, states_in_base_frame(places, quick)));
+    if (closer.size() <= places.size()) break;
+    places = std::move(closer);
+  }
+  return places;
+}
+
+MarchPair march_twice(const ScaledRod& rod, const std::vector<double>& places, double tolerance) {
   MarchPair pair;
-  pair.places = station_places(rod, equal_parts_for(0));
-  pair.rough = march(rod, pair.places, 10 * tolerance);
-  if (!pair.rough.finished) return pair;
-  const int equal_parts = equal_parts_for(turning_rad(rod, pair.places, pair.rough));
-  pair.places = station_places(rod, equal_parts);
-  pair.fine = march(rod, pair.places, tolerance);
+  pair.places = places;
+  pair.rough = march(rod, places, 10 * tolerance);
+  if (pair.rough.finished) pair.fine = march(rod, places, tolerance);
   return pair;
+}
+
+// Largest distance of the rough march's stations from the fine one's, and the change of the tip's rotation.
+double difference(const std::vector<PlacedState>& rough, const std::vector<PlacedState>& fine) {
+  double distance = 0;
+  for (std::size_t k = 0; k < fine.size(); ++k) {
+    distance = std::max(distance, (rough[k].state.tail<3>() - fine[k].state.tail<3>()).norm());
+  }
+  return distance +
+         (rotation_of(rough.back().state.head<4>()) - rotation_of(fine.back().state.head<4>())).norm();
+}
+
+scene::Equilibrium stopped(bool tendon_collapsed) {
+  scene::Equilibrium result;
+  result.status = tendon_collapsed ? scene::Status::tendon_collapsed : scene::Status::work_limit;
+  result.message = tendon_collapsed
+                       ? "the rod bends so far that the path of a tendon has no length somewhere"
+                       : "the integration from the tip stopped: more than 1e6 steps, or a value that is not finite";
+  return result;
 }
 
 }  // namespace
 
 scene::Equilibrium solve_initial_value(const ScaledRod& rod, double tolerance) {
-  scene::Equilibrium result;
   const double cvode_tolerance = std::clamp(tolerance / 500, 2e-15, 1e-6);
-  MarchPair pair = march_twice(rod, cvode_tolerance);
-  if (!pair.finished()) pair = march_twice(rod, 10 * cvode_tolerance);  // round-off can keep CVODE from the tighter one
-  if (!pair.finished()) {
-    result.status = scene::Status::not_converged;
-    result.message = "the integration from the tip stopped: more than 1e6 steps, or a value that is not finite";
-    return result;
-  }
-  const March &rough = pair.rough, &fine = pair.fine;
+  const std::vector<double> places = places_by_turn(rod);
+  MarchPair pair = march_twice(rod, places, cvode_tolerance);
+  // Round-off can keep CVODE from the tighter one.
+  if (!pair.finished()) pair = march_twice(rod, places, 10 * cvode_tolerance);
+  if (!pair.finished()) return stopped(pair.rough.tendon_collapsed || pair.fine.tendon_collapsed);
+  const std::vector<PlacedState> states = states_in_base_frame(places, pair.fine);
+  scene::Equilibrium result;
   result.status = scene::Status::converged;
-  result.stations = stations_of(rod, pair.places, fine);
-  const scene::Pose rough_tip = stations_of(rod, {0, 1}, {true, {rough.states.front(), rough.states.back()}})[1].X_BS;
-  const double difference = (rough_tip.position_B_mm - result.tip().position_B_mm).norm() / rod.length_mm +
-                            (rough_tip.rotation_BS - result.tip().rotation_BS).norm();
+  set_shape(result, rod, states);
+  result.tendon_shortening_mm = tendon_shortening_mm(rod, states);
   constexpr double roundoff_per_step = 2e-16;
-  result.error_estimate_mm = rod.length_mm * (std::max(difference, fine.invariant_drift) +
-                                              roundoff_per_step * static_cast<double>(fine.steps));
-  result.tip_angle_rad = scene::total_angle_rad(result.stations);
-  set_base_wrench(result, rod, fine.states[0].segment<3>(4), fine.states[0].segment<3>(7));
-  result.model.emplace_back("steps", static_cast<int>(fine.steps));
+  const double change = difference(states_in_base_frame(places, pair.rough), states);
+  result.error_estimate_mm = rod.length_mm * (std::max(change, pair.fine.invariant_drift) +
+                                              roundoff_per_step * static_cast<double>(pair.fine.steps));
+  result.model.emplace_back("steps", static_cast<int>(pair.fine.steps));
   return result;
 }
 

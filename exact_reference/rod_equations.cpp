@@ -55,22 +55,63 @@ Eigen::Matrix<double, 4, 3> quaternion_tangent(const Vector4d& q) {  // dq = 1/2
 }
 
 RodEquations::RodEquations(const ScaledSpan& span, double load_factor)
-    : bending_compliance_(span.bending_compliance),
-      shear_compliance_(span.shear_compliance),
-      rest_curvature_(span.rest_curvature_S +
-                      load_factor * span.bending_compliance.cwiseProduct(span.tendon_S.moment_Nmm)),
-      rest_stretch_(Vector3d::UnitX() + load_factor * span.shear_compliance.cwiseProduct(span.tendon_S.force_N)),
+    : span_(span),
+      load_factor_(load_factor),
       follower_density_(load_factor * span.follower_density_S),
       fixed_density_(load_factor * span.fixed_density_B),
       follower_load_{load_factor * span.follower_load_S.force_N, load_factor * span.follower_load_S.moment_Nmm},
-      fixed_load_{load_factor * span.fixed_load_B.force_N, load_factor * span.fixed_load_B.moment_Nmm} {}
+      fixed_load_{load_factor * span.fixed_load_B.force_N, load_factor * span.fixed_load_B.moment_Nmm},
+      fixed_force_arms_(load_factor * span.fixed_force_arms_BS) {}
+
+TendonStrains RodEquations::tendon_strains() const {
+  Vector6d rest, compliance;
+  rest << span_.rest_curvature_S, Vector3d::UnitX();
+  compliance << span_.bending_compliance, span_.shear_compliance;
+  return {span_.tendons, load_factor_, rest, compliance};
+}
+
+Strains RodEquations::strains_S(const Vector3d& n, const Vector3d& m) const {
+  if (span_.tendons.empty()) {
+    return {span_.rest_curvature_S + span_.bending_compliance.cwiseProduct(m),
+            Vector3d::UnitX() + span_.shear_compliance.cwiseProduct(n)};
+  }
+  Vector6d wrench;
+  wrench << m, n;
+  const Vector6d strains = tendon_strains().strains(wrench);
+  return {strains.head<3>(), strains.tail<3>()};
+}
+
+Strains RodEquations::strains(const State& y) const {
+  const Matrix3d R = rotation_of(y.head<4>());
+  return strains_S(R.transpose() * y.segment<3>(4), R.transpose() * y.segment<3>(7));
+}
+
+scene::Wrench RodEquations::own_wrench_S(const Vector3d& n, const Vector3d& m) const {
+  if (span_.tendons.empty()) return {n, m};
+  Vector6d strains;
+  const Strains uv = strains_S(n, m);
+  strains << uv.curvature_S, uv.stretch_S;
+  const Vector6d pull = tendon_strains().pull(strains);
+  return {n - pull.tail<3>(), m - pull.head<3>()};
+}
+
+// du/dm, du/dn, dv/dn; dv/dm is the transpose of du/dn.
+RodEquations::Compliance RodEquations::compliance(const Strains& strains) const {
+  if (span_.tendons.empty()) {
+    return {span_.bending_compliance.asDiagonal(), Matrix3d::Zero(), span_.shear_compliance.asDiagonal()};
+  }
+  Vector6d uv;
+  uv << strains.curvature_S, strains.stretch_S;
+  const Matrix6d C = tendon_strains().strains_by_wrench(uv);
+  return {C.topLeftCorner<3, 3>(), C.topRightCorner<3, 3>(), C.bottomRightCorner<3, 3>()};
+}
 
 State RodEquations::derivative(const State& y) const {
   const Vector4d q = y.head<4>();
   const Vector3d N = y.segment<3>(4);
   const Matrix3d R = rotation_of(q);
-  const Vector3d u = curvature_S(R.transpose() * y.segment<3>(7));
-  const Vector3d tangent = R * stretch_S(R.transpose() * N);
+  const auto [u, v] = strains_S(R.transpose() * N, R.transpose() * y.segment<3>(7));
+  const Vector3d tangent = R * v;
   State dy;
   dy.head<4>() = quaternion_derivative(q, u);
   dy.segment<3>(4) = -fixed_density_ - R * follower_density_;
@@ -83,9 +124,11 @@ CoreMatrix RodEquations::jacobian(const State& y) const {
   const Vector4d q = y.head<4>();
   const Vector3d N = y.segment<3>(4), M = y.segment<3>(7);
   const Matrix3d R = rotation_of(q);
-  const Vector3d u = curvature_S(R.transpose() * M);
-  const Vector3d v = stretch_S(R.transpose() * N);
+  const Strains strains = strains_S(R.transpose() * N, R.transpose() * M);
+  const auto& [u, v] = strains;
   const Vector3d tangent = R * v;
+  const Matrix34 m_by_q = rotated_by_quaternion(q, M, -1), n_by_q = rotated_by_quaternion(q, N, -1);
+  const Compliance C = compliance(strains);
 
   // q' = W(u) q = 2 E(q) u with E = dq'/du.
   Eigen::Matrix<double, 4, 3> dq_by_u;
@@ -95,23 +138,25 @@ CoreMatrix RodEquations::jacobian(const State& y) const {
   Eigen::Matrix4d dq_by_q;
   dq_by_q << 0, -0.5 * u.transpose(), 0.5 * u, -0.5 * cross_matrix(u);
 
-  const Matrix34 tangent_by_q =
-      rotated_by_quaternion(q, v, 1) + R * shear_compliance_.asDiagonal() * rotated_by_quaternion(q, N, -1);
-  const Matrix3d tangent_by_N = R * shear_compliance_.asDiagonal() * R.transpose();
+  const Matrix34 tangent_by_q = rotated_by_quaternion(q, v, 1) + R * (C.vn * n_by_q + C.un.transpose() * m_by_q);
+  const Matrix3d tangent_by_N = R * C.vn * R.transpose(), u_by_N = C.un * R.transpose();
 
   CoreMatrix J = CoreMatrix::Zero();
-  J.block<4, 4>(0, 0) = dq_by_q + dq_by_u * bending_compliance_.asDiagonal() * rotated_by_quaternion(q, M, -1);
-  J.block<4, 3>(0, 7) = dq_by_u * bending_compliance_.asDiagonal() * R.transpose();
+  J.block<4, 4>(0, 0) = dq_by_q + dq_by_u * (C.um * m_by_q + C.un * n_by_q);
+  J.block<4, 3>(0, 4) = dq_by_u * u_by_N;
+  J.block<4, 3>(0, 7) = dq_by_u * (C.um * R.transpose());
   J.block<3, 4>(4, 0) = -rotated_by_quaternion(q, follower_density_, 1);
   J.block<3, 4>(7, 0) = cross_matrix(N) * tangent_by_q;
   J.block<3, 3>(7, 4) = cross_matrix(N) * tangent_by_N - cross_matrix(tangent);
+  J.block<3, 3>(7, 7) = cross_matrix(N) * (R * C.un.transpose() * R.transpose());
   return J;
 }
 
-void RodEquations::wrench_derivative_S(const Vector3d& n, const Vector3d& m, Vector3d& dn, Vector3d& dm) const {
-  const Vector3d u = curvature_S(m);
+void RodEquations::wrench_derivative_S(const Vector3d& n, const Vector3d& m, const Strains& strains, Vector3d& dn,
+                                       Vector3d& dm) const {
+  const auto& [u, v] = strains;
   dn = -u.cross(n) - follower_density_;
-  dm = -u.cross(m) - stretch_S(n).cross(n);
+  dm = -u.cross(m) - v.cross(n);
 }
 
 State RodEquations::beyond_point_loads(const State& y) const {
@@ -119,6 +164,7 @@ State RodEquations::beyond_point_loads(const State& y) const {
   State out = y;
   out.segment<3>(4) -= fixed_load_.force_N + R * follower_load_.force_N;
   out.segment<3>(7) -= fixed_load_.moment_Nmm + R * follower_load_.moment_Nmm;
+  out.segment<3>(7) -= scene::moment_of_arms<double>(fixed_force_arms_ * R.transpose());
   return out;
 }
 
@@ -126,7 +172,17 @@ CoreMatrix RodEquations::beyond_point_loads_jacobian(const State& y) const {
   CoreMatrix J = CoreMatrix::Identity();
   J.block<3, 4>(4, 0) = -rotated_by_quaternion(y.head<4>(), follower_load_.force_N, 1);
   J.block<3, 4>(7, 0) = -rotated_by_quaternion(y.head<4>(), follower_load_.moment_Nmm, 1);
+  for (int axis = 1; axis < 3; ++axis) {  // the moment is sum (R e_axis) x arms.col(axis)
+    if (fixed_force_arms_.col(axis).isZero(0)) continue;
+    J.block<3, 4>(7, 0) += cross_matrix(fixed_force_arms_.col(axis)) *
+                           rotated_by_quaternion(y.head<4>(), Vector3d::Unit(axis), 1);
+  }
   return J;
+}
+
+Matrix3d RodEquations::arms_second_variation(const State& y) const {
+  const Matrix3d arms_B = fixed_force_arms_ * rotation_of(y.head<4>()).transpose();  // sum F a^T
+  return arms_B.trace() * Matrix3d::Identity() - (arms_B + arms_B.transpose()) / 2;
 }
 
 }  // namespace exact_reference

@@ -3,12 +3,12 @@
 //
 //   p' = R v      q' = 1/2 q (0, u)      N' = -f_B - R f_S                M' = -(R v) x N         base frame
 //                                        n' = -u x n - f                  m' = -u x m - v x n     section frame
-//   u = u0 + K_u^-1 (R^T M + m_tendon)   v = e_x + K_v^-1 (R^T N + n_tendon)
+//   u = u0 + K_u^-1 (R^T M - m_tendons)   v = e_x + K_v^-1 (R^T N - n_tendons)
 //
-// N, M: what the distal part, tendons included, exerts on the proximal one. The rod's own share is that plus the
-// tendon's compression, which is why a tendon acts as a shift of the rest strain and nothing jumps where it ends. q is
-// a unit quaternion (w, x, y, z) taken as four plain unknowns: q' keeps |q|, so that one condition |q| = 1 at the clamp
-// is enough, and full turns need no care.
+// N, M: what the distal part, tendons included, exerts on the proximal one; nothing of it jumps where a tendon ends.
+// The rod's own share is that less the tendons' pulls along v + u x r (tendon_strains.h). q is a unit quaternion
+// (w, x, y, z) taken as four plain unknowns: q' keeps |q|, so that one condition |q| = 1 at the clamp is enough, and
+// full turns need no care.
 #pragma once
 
 #include "exact_reference/scaled_rod.h"
@@ -26,7 +26,12 @@ using CoreMatrix = Eigen::Matrix<double, core_size, core_size>;
 // Rotation of the quaternion, in the form that is quadratic in q (|q|^2 times a rotation).
 Eigen::Matrix3d rotation_of(const Eigen::Vector4d& q);
 
-// A span under load_factor times its loads (tendons are loads; the rest curvature is not).
+struct Strains {
+  Eigen::Vector3d curvature_S;  // u
+  Eigen::Vector3d stretch_S;    // v
+};
+
+// A span under load_factor times its loads (tendons are loads; the rest curvature is not). The span must outlive it.
 class RodEquations {
  public:
   RodEquations(const ScaledSpan& span, double load_factor);
@@ -34,26 +39,37 @@ class RodEquations {
   State derivative(const State& y) const;
   CoreMatrix jacobian(const State& y) const;  // of the first ten derivatives by the first ten unknowns
 
-  // Strains from the cut's wrench in the section frame.
-  Eigen::Vector3d curvature_S(const Eigen::Vector3d& moment_S) const {
-    return rest_curvature_ + bending_compliance_.cwiseProduct(moment_S);
-  }
-  Eigen::Vector3d stretch_S(const Eigen::Vector3d& force_S) const {
-    return rest_stretch_ + shear_compliance_.cwiseProduct(force_S);
-  }
+  // u and v under a wrench in the section frame. Not a number where a tendon's path has no length.
+  Strains strains_S(const Eigen::Vector3d& force_S, const Eigen::Vector3d& moment_S) const;
+  Strains strains(const State& y) const;
+
+  // The rod's own share of a wrench in the section frame: less the tendons' pulls.
+  scene::Wrench own_wrench_S(const Eigen::Vector3d& force_S, const Eigen::Vector3d& moment_S) const;
+
   // n and m of the section frame; follower densities only.
-  void wrench_derivative_S(const Eigen::Vector3d& force_S, const Eigen::Vector3d& moment_S, Eigen::Vector3d& d_force_S,
-                           Eigen::Vector3d& d_moment_S) const;
+  void wrench_derivative_S(const Eigen::Vector3d& force_S, const Eigen::Vector3d& moment_S, const Strains& strains,
+                           Eigen::Vector3d& d_force_S, Eigen::Vector3d& d_moment_S) const;
 
   // State just beyond the point loads at the span's end, and its derivative by the state before them.
   State beyond_point_loads(const State& y) const;
   CoreMatrix beyond_point_loads_jacobian(const State& y) const;
 
+  // Second variation of the energy of the fixed forces off the centreline at the span's end, by a small rotation in the
+  // base frame: 1/2 theta . (...) theta. With a = R r that is sum (F.a) I - sym(F a^T).
+  Eigen::Matrix3d arms_second_variation(const State& y) const;
+
  private:
-  Eigen::Vector3d bending_compliance_, shear_compliance_;
-  Eigen::Vector3d rest_curvature_, rest_stretch_;  // tendons included
+  struct Compliance {
+    Eigen::Matrix3d um, un, vn;
+  };
+  Compliance compliance(const Strains& strains) const;
+  TendonStrains tendon_strains() const;
+
+  const ScaledSpan& span_;
+  double load_factor_;
   Eigen::Vector3d follower_density_, fixed_density_;
   scene::Wrench follower_load_, fixed_load_;
+  Eigen::Matrix3d fixed_force_arms_;
 };
 
 // q' = 1/2 q (0, u).

@@ -21,24 +21,73 @@ Vector3d shear_compliance_per_N(const scene::Stiffness& stiffness, RodModel mode
   return compliance;
 }
 
+// Turns a planar rod with equal sections about its axis into the x-y plane, and leaves nothing out of that.
+void turn_into_xy(ScaledRod& rod, const Eigen::Vector2d& direction) {
+  rod.symmetry = scene::Symmetry::plane_xy;
+  Eigen::Matrix3d& Q = rod.turn_about_axis;
+  Q.bottomRightCorner<2, 2>() << direction[0], direction[1], -direction[1], direction[0];
+  const auto in_plane = [&](Vector3d& v) {
+    v = Q * v;
+    v[2] = 0;
+  };
+  const auto about_normal = [&](Vector3d& v) { v = Vector3d(0, 0, Q.row(2).dot(v)); };
+  for (ScaledSpan& span : rod.spans) {
+    about_normal(span.rest_curvature_S);
+    for (Vector3d* density : {&span.follower_density_S, &span.fixed_density_B}) in_plane(*density);
+    for (scene::Wrench* load : {&span.follower_load_S, &span.fixed_load_B}) {
+      in_plane(load->force_N);
+      about_normal(load->moment_Nmm);
+    }
+    span.fixed_force_arms_BS = Q * span.fixed_force_arms_BS * Q.transpose();
+    span.fixed_force_arms_BS.row(2).setZero();
+    span.fixed_force_arms_BS.col(2).setZero();
+    for (ScaledTendon& tendon : span.tendons) tendon.arm_S = Q * tendon.arm_S;
+  }
+  for (Vector3d& arm : rod.tendon_arms_S) arm = Q * arm;
+}
+
+void set_tendon_paths(ScaledRod& rod, const scene::Scene& scene) {
+  for (const scene::Load& load : scene.loads) {
+    const auto* tendon = std::get_if<scene::Tendon>(&load);
+    if (tendon == nullptr) continue;
+    const Vector3d arm_S = Vector3d(0, tendon->offset_mm[0], tendon->offset_mm[1]) / rod.length_mm;
+    const auto known = std::find(rod.tendon_arms_S.begin(), rod.tendon_arms_S.end(), arm_S);
+    TendonPath& path = rod.tendon_paths.emplace_back();
+    path.arm = static_cast<std::size_t>(known - rod.tendon_arms_S.begin());
+    if (known == rod.tendon_arms_S.end()) rod.tendon_arms_S.push_back(arm_S);
+    const auto middle_lies_beyond = [](double to, const ScaledSpan& span) { return to < (span.start + span.end) / 2; };
+    path.spans = static_cast<std::size_t>(
+        std::upper_bound(rod.spans.begin(), rod.spans.end(), tendon->to_mm / rod.length_mm, middle_lies_beyond) -
+        rod.spans.begin());
+  }
+}
+
 }  // namespace
 
 double ScaledRod::load_size() const {
-  double size = 0, compliance = 0;
+  double size = 0, tendons = 0, compliance = 0;
   for (const ScaledSpan& span : spans) {
     for (const scene::Wrench* load : {&span.follower_load_S, &span.fixed_load_B}) {
       size += load->force_N.norm() + load->moment_Nmm.norm();
     }
+    size += span.fixed_force_arms_BS.norm();
     size += span.length() * (span.follower_density_S.norm() + span.fixed_density_B.norm());
     compliance = std::max(compliance, span.bending_compliance.maxCoeff());
+    double pull = 0;
+    for (const ScaledTendon& tendon : span.tendons) pull += tendon.tension * tendon.arm_S.norm();
+    tendons = std::max(tendons, pull);
   }
-  return size * compliance;
+  return (size + tendons) * compliance;
 }
 
 bool ScaledRod::has_fixed_load() const {
   return std::any_of(spans.begin(), spans.end(), [](const ScaledSpan& span) {
-    return !span.fixed_load_B.is_zero() || !span.fixed_density_B.isZero(0);
+    return !span.fixed_load_B.is_zero() || !span.fixed_force_arms_BS.isZero(0) || !span.fixed_density_B.isZero(0);
   });
+}
+
+bool ScaledRod::has_tendon() const {
+  return std::any_of(spans.begin(), spans.end(), [](const ScaledSpan& span) { return !span.tendons.empty(); });
 }
 
 bool ScaledRod::has_fixed_moment() const {
@@ -65,6 +114,7 @@ ScaledRod scaled_rod(const scene::Scene& scene, RodModel model) {
   ScaledRod rod;
   rod.length_mm = length;
   rod.symmetry = scene::symmetry_of(spans);
+  rod.plane_normal_B = scene::plane_normal(spans);
   rod.force_unit_N = bending / length / length;
   rod.moment_unit_Nmm = bending / length;
   const auto scaled = [&](const scene::Wrench& wrench) {
@@ -83,8 +133,15 @@ ScaledRod scaled_rod(const scene::Scene& scene, RodModel model) {
     out.fixed_density_B = length / rod.force_unit_N * span.fixed_force_B_N_per_mm;
     out.follower_load_S = scaled(span.follower_load_S);
     out.fixed_load_B = scaled(span.fixed_load_B);
-    out.tendon_S = scaled(span.tendon_S);
+    out.fixed_force_arms_BS = span.fixed_force_arms_BS_Nmm / rod.moment_unit_Nmm;
+    for (const scene::SectionTendon& tendon : span.tendons) {
+      out.tendons.push_back({tendon.arm_S_mm / length, tendon.tension_N / rod.force_unit_N});
+    }
   }
+  set_tendon_paths(rod, scene);
+  const std::optional<Eigen::Vector2d> direction = scene::plane_direction(spans);
+  const bool oblique = direction && (*direction)[0] != 0 && (*direction)[1] != 0;
+  if (oblique && scene::is_isotropic(spans)) turn_into_xy(rod, *direction);
   return rod;
 }
 

@@ -3,8 +3,10 @@
 // size and stiffness look alike to the solvers, and absolute tolerances mean something.
 #pragma once
 
+#include "exact_reference/tendon_strains.h"
 #include "scene/span_facts.h"
 
+#include <optional>
 #include <vector>
 
 namespace exact_reference {
@@ -25,9 +27,16 @@ struct ScaledSpan {
   Eigen::Vector3d fixed_density_B;
   scene::Wrench follower_load_S;  // at the span's end
   scene::Wrench fixed_load_B;
-  scene::Wrench tendon_S;
+  Eigen::Matrix3d fixed_force_arms_BS;  // sum F r^T of the fixed forces off the centreline at the span's end
+  std::vector<ScaledTendon> tendons;
 
   double length() const { return end - start; }
+};
+
+// One of the scene's tendons, slack ones included.
+struct TendonPath {
+  std::size_t arm = 0;    // of ScaledRod::tendon_arms_S
+  std::size_t spans = 0;  // that it runs through, from the clamp
 };
 
 struct ScaledRod {
@@ -35,11 +44,19 @@ struct ScaledRod {
   double force_unit_N = 0;     // EI/L^2
   double moment_unit_Nmm = 0;  // EI/L
   std::vector<ScaledSpan> spans;
+  std::vector<Eigen::Vector3d> tendon_arms_S;  // different ones
+  std::vector<TendonPath> tendon_paths;        // in the order of the scene's loads
   scene::Symmetry symmetry = scene::Symmetry::none;
+  std::optional<Eigen::Vector3d> plane_normal_B;  // of a planar scene, in the scene's base frame
+  // From the scene's frames, base and section alike, to those here. The identity but for a rod that bends in an oblique
+  // plane: it is turned about its axis, that plane to x-y, so that the symmetry is exact in rounded numbers, too.
+  Eigen::Matrix3d turn_about_axis = Eigen::Matrix3d::Identity();
 
-  // Sum of all loads but the tendons', times the largest compliance: below 1 nothing buckles.
+  // Sum of all forces and moments, the tendons' bending included, times the largest compliance: below 1 nothing
+  // buckles.
   double load_size() const;
   bool has_fixed_load() const;       // any load with components in the base frame, gravity included
+  bool has_tendon() const;
   bool has_fixed_moment() const;     // not conservative in space
   bool has_follower_load() const;    // not conservative
   bool shears_or_stretches() const;  // any shear compliance that is not 0

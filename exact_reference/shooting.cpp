@@ -2,6 +2,8 @@
 
 #include "exact_reference/band_system.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +12,12 @@ namespace exact_reference {
 namespace {
 
 constexpr int clamp_rows = 4;
+constexpr double most_parts = 8;  // of an interval that is split
+
+// Of an interval whose error is this many times too large.
+double parts_for(double excess) {
+  return std::isfinite(excess) ? std::pow(excess, 1.0 / (runge_kutta_order + 1)) : most_parts;
+}
 
 // The components of a node's core that a system has: all, or those in a plane.
 constexpr std::array all_components{0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
@@ -90,7 +98,7 @@ std::vector<Core> Shooting::residual(const NodeStates& y, double load_factor) co
 
 // Matrix and residual, unknowns and equations multiplied by `weight`. The residual goes to the system's vector.
 void Shooting::assemble(BandSystem& band, std::span<const int> components, const NodeStates& y, double load_factor,
-                        const Core& weight) const {
+                        const Core& weight, std::vector<double>* volume_changes) const {
   const long n = static_cast<long>(mesh_.size()), m = static_cast<long>(components.size());
   band.set_zero();
   double* r = band.vector();
@@ -103,6 +111,7 @@ void Shooting::assemble(BandSystem& band, std::span<const int> components, const
   for (long i = 0; i < n; ++i) {
     const State start = start_state(y, load_factor, i);
     const State end = runge_kutta_step(equations(i, load_factor), start, mesh_[i].length, sensitivity);
+    if (volume_changes != nullptr) (*volume_changes)[i] = std::abs(std::abs(sensitivity.determinant()) - 1);
     if (i > 0 && mesh_[i - 1].ends_span) {
       sensitivity *= equations(i - 1, load_factor).beyond_point_loads_jacobian(y[i]);
     }
@@ -127,24 +136,44 @@ void Shooting::assemble(BandSystem& band, std::span<const int> components, const
   }
 }
 
+// A step's end that is not a number, from states that are.
+bool Shooting::tendon_collapses(const NodeStates& y, double load_factor) const {
+  if (!rod_.has_tendon()) return false;
+  for (std::size_t i = 0; i < mesh_.size(); ++i) {
+    const State start = start_state(y, load_factor, i);
+    if (!start.allFinite()) return false;
+    if (!runge_kutta_step(equations(i, load_factor), start, mesh_[i].length).allFinite()) return true;
+  }
+  return false;
+}
+
 Convergence Shooting::newton(NodeStates& y, double load_factor, double tolerance, int max_iterations) {
-  constexpr double roundoff_range = 1e-9;
+  constexpr int many_iterations = 5;
   Convergence result;
   int growths = 0;
   for (double last = HUGE_VAL; result.iterations < max_iterations; last = result.last_update) {
     ++result.iterations;
     const Core weight = weights(y);
+    const NodeStates before = y;
     if (!band_) band_ = band_system(all_components, mesh_.size());
-    assemble(*band_, all_components, y, load_factor, weight);
-    if (!band_->factorise() || !band_->solve()) return result;
+    volume_changes_.resize(mesh_.size());
+    assemble(*band_, all_components, y, load_factor, weight, &volume_changes_);
+    if (!band_->factorise() || !band_->solve()) {
+      result.tendon_collapsed = tendon_collapses(y, load_factor);
+      return result;
+    }
     const double* update = band_->vector();
     result.last_update = 0;
     for (std::size_t k = 0; k < y.size(); ++k) {
       const Eigen::Map<const Core> step(update + core_size * k);
       y[k].head<core_size>() -= step.cwiseQuotient(weight);
-      if (!step.allFinite()) return result;
+      if (!step.allFinite()) {
+        result.tendon_collapsed = tendon_collapses(before, load_factor);
+        return result;
+      }
       result.last_update = std::max(result.last_update, step.lpNorm<Eigen::Infinity>());
     }
+    const double roundoff_range = result.iterations < many_iterations ? 1e-9 : 1e-6;
     if (result.last_update <= tolerance || (result.last_update < roundoff_range && result.last_update >= last / 2)) {
       result.converged = true;
       return result;
@@ -197,15 +226,15 @@ double Shooting::local_error(const NodeStates& y, double load_factor, const Core
                   difference.tail<3>().lpNorm<Eigen::Infinity>());
 }
 
-bool Shooting::refine(NodeStates& y, double load_factor, double tolerance, int max_intervals) {
-  constexpr double most_parts = 8;
+bool Shooting::refine(NodeStates& y, double load_factor, double tolerance, double most_volume_change,
+                      int max_intervals) {
   const Core weight = weights(y);
   std::vector<int> parts(mesh_.size());
   long total = 0;
   for (std::size_t i = 0; i < mesh_.size(); ++i) {
     const double error = local_error(y, load_factor, weight, i);
-    const double wanted =
-        std::isfinite(error) ? std::pow(error / tolerance, 1.0 / (runge_kutta_order + 1)) : most_parts;
+    double wanted = parts_for(error / tolerance);
+    if (volume_changes_.size() == mesh_.size()) wanted = std::max(wanted, parts_for(volume_changes_[i] / most_volume_change));
     parts[i] = wanted <= 1 ? 1 : static_cast<int>(std::ceil(std::clamp(wanted, 2.0, most_parts)));
     total += parts[i];
   }
@@ -238,6 +267,7 @@ void Shooting::split(NodeStates& y, double load_factor, const std::vector<int>& 
   mesh_ = std::move(mesh);
   y = std::move(states);
   band_.reset();
+  volume_changes_.clear();
 }
 
 }  // namespace exact_reference

@@ -26,6 +26,7 @@ using NodeStates = std::vector<State>;
 
 struct Convergence {
   bool converged = false;
+  bool tendon_collapsed = false;  // given up because a tendon's path has no length somewhere
   int iterations = 0;
   double last_update = 0;  // largest change of a component; rotations in half radians, wrenches relative to the largest
 };
@@ -48,16 +49,17 @@ class Shooting {
   // The unloaded rod: clamp at the origin, rest curvature only.
   NodeStates unloaded() const;
 
-  // Newton's iteration without damping. Converged when an update is <= tolerance, or <= 1e-9 and no longer falling
-  // (round-off). Given up when not finite, when two updates grow in turn, or after max_iterations.
+  // Newton's iteration without damping. Converged when an update is <= tolerance, or no longer falling (round-off) and
+  // <= 1e-9, from the fifth on <= 1e-6 (a motion that next to nothing resists). Given up when not finite, when two updates grow in turn, or after max_iterations.
   Convergence newton(NodeStates& y, double load_factor, double tolerance, int max_iterations);
 
   // d(states)/d(load_factor) at a solution; zero if the matrix is singular there.
   std::vector<Core> tangent(const NodeStates& y, double load_factor);
 
   // Splits the intervals whose step disagrees with two half steps by more than the tolerance (components as in
-  // Convergence, position over L). Returns whether any was split; more than max_intervals: no split, false.
-  bool refine(NodeStates& y, double load_factor, double tolerance, int max_intervals);
+  // Convergence, position over L), or whose sensitivity's volume changes by more than that. Returns whether any was split; more than max_intervals: no split, false.
+  bool refine(NodeStates& y, double load_factor, double tolerance, double most_volume_change,
+              int max_intervals);
   void halve(NodeStates& y, double load_factor);
 
   // Of the equations' derivatives, as they act on motions in the plane of the rod's symmetry if there is one. It does
@@ -73,10 +75,16 @@ class Shooting {
 
   const Mesh& mesh() const { return mesh_; }
 
+  // |det - 1| of each interval's sensitivity in Newton's last iteration, if the mesh is still that one. The exact one is
+  // 1 (the equations' Jacobian has no trace): what grows along the interval and what decays, both must be resolved,
+  // though a straight taut rod or a rod with next to no torsional stiffness shows nothing of it in its shape.
+  const std::vector<double>& volume_changes() const { return volume_changes_; }
+
  private:
   Core weights(const NodeStates& y) const;  // 1 for q, 1/(1 + largest) for N and M
   void assemble(BandSystem& band, std::span<const int> components, const NodeStates& y, double load_factor,
-                const Core& weight) const;
+                const Core& weight, std::vector<double>* volume_changes = nullptr) const;
+  bool tendon_collapses(const NodeStates& y, double load_factor) const;
   std::vector<Core> residual(const NodeStates& y, double load_factor) const;
   double local_error(const NodeStates& y, double load_factor, const Core& weight, std::size_t i) const;
   void split(NodeStates& y, double load_factor, const std::vector<int>& parts);
@@ -84,6 +92,7 @@ class Shooting {
   const ScaledRod& rod_;
   Mesh mesh_;
   std::unique_ptr<BandSystem> band_;
+  std::vector<double> volume_changes_;
 };
 
 }  // namespace exact_reference

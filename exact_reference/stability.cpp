@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include <numeric>
+
 namespace exact_reference {
 namespace {
 
@@ -33,17 +35,23 @@ IntervalForm interval_form(const RodEquations& rod, const State& start, double l
 }  // namespace
 
 std::optional<int> falling_directions(const Shooting& shooting, const NodeStates& y, double load) {
-  constexpr double neutral = 1e-11;  // of the interval's own form
+  constexpr double epsilon = 2.2e-16;
+  const double intervals = static_cast<double>(shooting.mesh().size());
+  const std::vector<double>& errors = shooting.volume_changes();
+  const double unresolved = std::accumulate(errors.begin(), errors.end(), 1e-11);
   int count = 0;
-  Matrix3d beyond = Matrix3d::Zero();  // form of everything distal, as a function of the rotation here; free tip: none
+  Matrix3d beyond = Matrix3d::Zero();  // form of everything distal, as a function of the rotation here
   for (std::size_t i = shooting.mesh().size(); i-- > 0;) {
     const IntervalForm form =
         interval_form(shooting.equations(i, load), shooting.start_state(y, load, i), shooting.mesh()[i].length);
+    if (shooting.mesh()[i].ends_span) beyond += shooting.equations(i, load).arms_second_variation(y[i + 1]);
     const Matrix3d pivot = form.end_end + beyond;
     // Measured by the interval's own form, so that stiff and soft axes count alike; signs are the same (Sylvester).
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix3d> eigen(pivot, form.end_end, Eigen::EigenvaluesOnly);
     const Eigen::Vector3d& values = eigen.eigenvalues();
-    if (!values.allFinite() || values.cwiseAbs().minCoeff() < neutral) return std::nullopt;
+    const Eigen::Vector3d own = form.end_end.selfadjointView<Eigen::Lower>().eigenvalues();
+    const double neutral = unresolved + intervals * epsilon * own[2] / own[0];
+    if (!values.allFinite() || !(values.cwiseAbs().minCoeff() >= neutral)) return std::nullopt;
     count += static_cast<int>((values.array() < 0).count());
     beyond = form.start_start - symmetric_part(form.start_end * pivot.inverse() * form.start_end.transpose());
   }

@@ -1,4 +1,4 @@
-// Where on the rod an answer is given.
+// Where on the rod an answer is given, and what is said there.
 #pragma once
 
 #include "exact_reference/rod_equations.h"
@@ -8,17 +8,30 @@
 
 namespace exact_reference {
 
-// Places on 0..1, clamp to tip: `equal_parts` + 1 equally spaced ones and all span ends, each once.
-std::vector<double> station_places(const ScaledRod& rod, int equal_parts);
+// State at a place, base frame; at a point load or a tendon's end that of the side towards the clamp.
+struct PlacedState {
+  double place = 0;  // 0..1
+  State state = State::Zero();
+};
 
-// Enough equal parts for `turning`, the rod's integral of |u| in rad: at most half a radian each, at least 40.
-int equal_parts_for(double turning_rad);
+// int |u| ds from the clamp to each place, in rad: rising, the clamp and the tip included.
+struct Turn {
+  double place = 0;
+  double turned_rad = 0;
+};
 
-scene::Station station_of(const ScaledRod& rod, double place, const Eigen::Vector4d& q,
-                          const Eigen::Vector3d& position);
+// Places, clamp to tip, each once: 0, 1/40 ... 1, all span ends, and so many between that the rod turns by at most half
+// a radian from one to the next.
+std::vector<double> station_places(const ScaledRod& rod, const std::vector<Turn>& turns = {});
 
-// Internal wrench at the clamp, tendons included, in the base frame: that of the cut plus the tendons'.
-void set_base_wrench(scene::Equilibrium& result, const ScaledRod& rod, const Eigen::Vector3d& cut_force_B,
-                     const Eigen::Vector3d& cut_moment_B);
+// The turn between states that lie close, from their curvatures.
+std::vector<Turn> turns_of(const ScaledRod& rod, const std::vector<PlacedState>& states);
+
+// Stations and tip angle of a result. The wrench is the rod's own, tendons left out.
+void set_shape(scene::Equilibrium& result, const ScaledRod& rod, const std::vector<PlacedState>& states);
+
+// int |e_x + u0 x r| ds - int |v + u x r| ds of each of the scene's tendons in mm: Gauss's rule of five points between
+// neighbouring states, halved until it holds to 1e-15 L, each point by a Runge-Kutta step from the state before it.
+std::vector<double> tendon_shortening_mm(const ScaledRod& rod, const std::vector<PlacedState>& states);
 
 }  // namespace exact_reference

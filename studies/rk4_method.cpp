@@ -1,6 +1,6 @@
 #include "studies/rk4_method.h"
 
-#include "scene/span.h"
+#include "scene/span_facts.h"
 #include "studies/rk4_shooting.h"
 
 #include <fmt/format.h>
@@ -20,6 +20,7 @@ std::shared_ptr<Rk4Shooting> prepared(const scene::Scene& scene, const Rk4Option
       load->force_N *= load_share;
       load->moment_Nmm *= load_share;
     }
+    span.fixed_force_arms_BS_Nmm *= load_share;
     span.follower_force_S_N_per_mm *= load_share;
     span.fixed_force_B_N_per_mm *= load_share;
   }
@@ -60,10 +61,8 @@ class Rk4Method : public Method {
       return result;
     }
     result.stations = solver->stations();
-    result.tip_angle_rad = scene::total_angle_rad(result.stations);
+    result.tip_angle_rad = scene::tip_angle_rad(result.stations, scene::plane_normal(scene::spans_of(scene)));
     result.error_estimate_mm = error_estimate_mm(scene, result.tip().position_B_mm);
-    result.base().force_B_N = solver->base_force_B_N();
-    result.base().moment_B_Nmm = solver->base_moment_B_Nmm();
     return result;
   }
 

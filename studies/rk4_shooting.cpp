@@ -56,6 +56,8 @@ Rk4Shooting::Rk4Shooting(std::span<const scene::Span> spans, std::span<const int
     steps.has_follower_density = !steps.follower_density_S.isZero(0);
     steps.fixed_load_B = scaled(span.fixed_load_B, force_N, moment_Nmm);
     steps.follower_load_S = scaled(span.follower_load_S, force_N, moment_Nmm);
+    steps.fixed_force_arms = span.fixed_force_arms_BS_Nmm / moment_Nmm;
+    steps.has_arms = !steps.fixed_force_arms.isZero(0);
     step_count += static_cast<std::size_t>(steps.count);
     spans_.push_back(steps);
   }
@@ -84,8 +86,7 @@ Rk4Shooting::State Rk4Shooting::derivative(const SpanSteps& span, const State& y
 }
 
 template <bool with_shear>
-Rk4Shooting::State Rk4Shooting::step(const SpanSteps& span, const State& y) {
-  const double h = span.step;
+Rk4Shooting::State Rk4Shooting::step(const SpanSteps& span, const State& y, double h) {
   const State k1 = derivative<with_shear>(span, y);
   const State k2 = derivative<with_shear>(span, y + h / 2 * k1);
   const State k3 = derivative<with_shear>(span, y + h / 2 * k2);
@@ -93,6 +94,17 @@ Rk4Shooting::State Rk4Shooting::step(const SpanSteps& span, const State& y) {
   State next = y + h / 6 * (k1 + 2 * (k2 + k3) + k4);
   next.head<4>() /= std::sqrt(next.head<4>().squaredNorm());
   return next;
+}
+
+Rk4Shooting::State Rk4Shooting::beyond_point_loads(const SpanSteps& span, const State& y) {
+  const Matrix3d rotation = rotation_of(y);
+  State beyond = y;
+  beyond.segment<3>(7) -= span.fixed_load_B.force_N + rotation * span.follower_load_S.force_N;
+  beyond.segment<3>(10) -= span.fixed_load_B.moment_Nmm + rotation * span.follower_load_S.moment_Nmm;
+  if (span.has_arms) {
+    beyond.segment<3>(10) -= scene::moment_of_arms<double>(span.fixed_force_arms * rotation.transpose());
+  }
+  return beyond;
 }
 
 // The internal force and moment beyond the tip, which must be zero.
@@ -104,12 +116,10 @@ Rk4Shooting::Vector6d Rk4Shooting::residual_of(const Vector6d& base_wrench) {
   if constexpr (keep_states) *kept++ = y;
   for (const SpanSteps& span : spans_) {
     for (int i = 0; i < span.count; ++i) {
-      y = step<with_shear>(span, y);
+      y = step<with_shear>(span, y, span.step);
       if constexpr (keep_states) *kept++ = y;
     }
-    const Matrix3d rotation = rotation_of(y);
-    y.segment<3>(7) -= span.fixed_load_B.force_N + rotation * span.follower_load_S.force_N;
-    y.segment<3>(10) -= span.fixed_load_B.moment_Nmm + rotation * span.follower_load_S.moment_Nmm;
+    y = beyond_point_loads(span, y);
   }
   return y.tail<6>();
 }
@@ -138,27 +148,36 @@ scene::Status Rk4Shooting::run(const Vector6d& guess) noexcept {
   return with_shear_ ? newton<true>() : newton<false>();
 }
 
+scene::Station Rk4Shooting::station(double place, const State& y) const {
+  const double moment_Nmm = stiffness_Nmm2_ / length_mm_, force_N = moment_Nmm / length_mm_;
+  return {place * length_mm_,
+          {rotation_of(y), y.segment<3>(4) * length_mm_},
+          y.segment<3>(7) * force_N,
+          y.segment<3>(10) * moment_Nmm};
+}
+
 std::vector<scene::Station> Rk4Shooting::stations() const {
-  std::vector<scene::Station> list;
-  const auto add = [&](double s_mm) {
-    const State& y = states_[list.size()];
-    list.push_back({s_mm, {rotation_of(y), y.segment<3>(4) * length_mm_}});
-  };
-  add(0);
+  constexpr int equal_parts = 40;
+  std::vector<scene::Station> list{station(0, states_[0])};
+  int part = 1;
   double start = 0;
+  const State* end = &states_[0];
+  State y = *end;
   for (const SpanSteps& span : spans_) {
-    for (int i = 1; i <= span.count; ++i) add((start + i * span.step) * length_mm_);
+    for (int i = 0; i < span.count; ++i) {
+      const double from = start + i * span.step, to = from + span.step;
+      for (; part < equal_parts && part < equal_parts * (to - scene::same_place_relative); ++part) {
+        const double place = static_cast<double>(part) / equal_parts, h = place - from;
+        if (h <= scene::same_place_relative) continue;
+        list.push_back(station(place, with_shear_ ? step<true>(span, y, h) : step<false>(span, y, h)));
+      }
+      y = *++end;
+      list.push_back(station(to, y));
+    }
     start += span.count * span.step;
+    y = beyond_point_loads(span, y);
   }
   return list;
-}
-
-Vector3d Rk4Shooting::base_force_B_N() const {
-  return base_wrench_.head<3>() * stiffness_Nmm2_ / (length_mm_ * length_mm_);
-}
-
-Vector3d Rk4Shooting::base_moment_B_Nmm() const {
-  return base_wrench_.tail<3>() * stiffness_Nmm2_ / length_mm_;
 }
 
 }  // namespace studies

@@ -9,7 +9,8 @@
 // zero, or from a guess that is handed in. Units inside: the length L of the rod, the least bending or torsional
 // stiffness EI, forces EI/L^2, moments EI/L.
 //
-// Point loads, distributed forces and gravity, each in the section or the base frame, several sections. Not tendons.
+// Point loads, on and off the centreline, distributed forces and gravity, each in the section or the base frame, several
+// sections. Not tendons.
 #pragma once
 
 #include "scene/equilibrium.h"
@@ -42,10 +43,8 @@ class Rk4Shooting {
   double residual() const { return residual_; }
   int iterations() const { return iterations_; }
 
-  // After run(), in mm, N, N mm.
+  // After run(), in mm, N, N mm: at the ends of the steps and at s = k L/40, where a shorter step leads.
   std::vector<scene::Station> stations() const;
-  Eigen::Vector3d base_force_B_N() const;
-  Eigen::Vector3d base_moment_B_Nmm() const;
 
  private:
   struct SpanSteps {
@@ -55,12 +54,16 @@ class Rk4Shooting {
     Eigen::Vector3d fixed_density_B, follower_density_S;
     bool has_follower_density;
     scene::Wrench fixed_load_B, follower_load_S;  // at the span's distal end, scaled
+    Eigen::Matrix3d fixed_force_arms;             // sum F r^T of the fixed forces off the centreline there, scaled
+    bool has_arms;
   };
 
   template <bool with_shear>
   static State derivative(const SpanSteps& span, const State& y);
   template <bool with_shear>
-  static State step(const SpanSteps& span, const State& y);
+  static State step(const SpanSteps& span, const State& y, double h);
+  static State beyond_point_loads(const SpanSteps& span, const State& y);
+  scene::Station station(double place, const State& y) const;
   template <bool with_shear, bool keep_states>
   Vector6d residual_of(const Vector6d& base_wrench);
   template <bool with_shear>
