@@ -19,13 +19,11 @@ struct SteppingOptions {
   double smallest_bifurcation_step = 1e-5;
 };
 
-// state, clamp force and moment (dimensionless, exerted by the wall on the rod) only when the status is `converged`.
+// state only when the status is `converged`.
 struct SteppingResult {
   scene::Status status = scene::Status::not_converged;
   std::string message;
   BeamState state;
-  Eigen::Vector3d clamp_force_B;
-  Eigen::Vector3d clamp_moment_B;
   std::optional<bool> stable;  // stability.h; empty where the loads are not conservative, and where it is neutral
   int load_steps = 0;          // accepted
   int newton_iterations = 0;   // all, those of rejected steps included
@@ -47,7 +45,9 @@ struct SteppingResult {
 // one that is not is halved as well, in planar scenes and on the axis down to smallest_bifurcation_step, where it is
 // accepted. Loads that all follow the rod leave it one equilibrium, and nothing to watch.
 //
-// An accepted step in which an element turns by pi or more from end to end, beyond what the mesh can show, is the last.
+// A step in which a tendon collapses (tendon_pull.h) is refused; where the steps become too small for that, the status
+// is tendon_collapsed. One that ends with max_load_steps has the status work_limit. An accepted step in which an
+// element turns by pi or more from end to end, beyond what the mesh can show, is the last.
 SteppingResult step_to_full_load(const BeamModel& model, const SteppingOptions& options);
 
 }  // namespace fem_reference

@@ -1,5 +1,7 @@
 #include "scene/span.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -1,5 +1,7 @@
 #include "scene/span_facts.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
