@@ -1,0 +1,3 @@
+#include "fem_benchmark.h"
+
+#include <gtest/gtest.h>
