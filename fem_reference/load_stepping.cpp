@@ -61,16 +61,17 @@ Attempt iterate(BeamSystem& system, const BeamState& start, BeamState& state, do
                 const SteppingOptions& options) {
   Attempt attempt;
   BeamIncrement increment;
-  bool small_increment = false;
+  // Not of the forces: where the rod hardly stretches or shears they follow from the strains with little accuracy, and
+  // the residual bounds them.
+  double largest_increment = INFINITY;
   while (true) {
     attempt.residual = system.assemble(state, load_factor);
     attempt.rotation_rad = largest_rotation(start, state);
-    const double force_scale = std::max(1.0, largest(state.force_S));
     if (!attempt.residual.finite() || !all_finite(state)) {
       attempt.outcome = Outcome::not_finite;
       return attempt;
     }
-    const bool converged = small_increment && attempt.residual.largest() <= options.tolerance * force_scale;
+    const bool converged = is_converged(largest_increment, attempt.residual, largest(state.force_S), options.tolerance);
     // Before convergence the bound is wider: an iterate may overshoot and come back.
     if (attempt.rotation_rad > (converged ? 1.0 : 1.5) * options.largest_rotation_rad) {
       attempt.outcome = Outcome::turned_too_far;
@@ -86,9 +87,7 @@ Attempt iterate(BeamSystem& system, const BeamState& start, BeamState& state, do
     }
     ++attempt.iterations;
     advance(state, increment);
-    // Not the forces: where the rod hardly stretches or shears they follow from the strains with little accuracy, and
-    // the residual bounds them.
-    small_increment = std::max(largest(increment.displacement_B), largest(increment.rotation_S)) <= options.tolerance;
+    largest_increment = std::max(largest(increment.displacement_B), largest(increment.rotation_S));
   }
 }
 
@@ -309,6 +308,10 @@ class Stepping {
 };
 
 }  // namespace
+
+bool is_converged(double largest_increment, const Residual& residual, double largest_force, double tolerance) {
+  return largest_increment <= tolerance && residual.largest() <= tolerance * std::max(1.0, largest_force);
+}
 
 SteppingResult step_to_full_load(const BeamModel& model, const SteppingOptions& options) {
   return Stepping(model, options).run();

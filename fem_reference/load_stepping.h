@@ -29,11 +29,14 @@ struct SteppingResult {
   int newton_iterations = 0;   // all, those of rejected steps included
 };
 
+// Newton's iteration ends: largest increment of a node (displacement over L, rotation in rad) <= tolerance and largest
+// residual <= tolerance F, with F = max(1, largest internal force) in EI / L^2.
+bool is_converged(double largest_increment, const Residual& residual, double largest_force, double tolerance);
+
 // From the rest shape to the full load, along the path of equilibria.
 //
 // A step is accepted when
-//   largest Newton increment of a node <= tolerance (displacements over L, rotations in rad) and
-//   largest residual <= tolerance F, with F = max(1, largest internal force) in EI / L^2, and
+//   Newton's iteration has converged, and
 //   no node has turned by more than largest_rotation_rad in the step, half of that in the first one, and
 //   no node lies farther than a twelfth of largest_rotation_rad from where the last step pointed, nor, unless the step
 //   is shorter than a sixteenth of the last, farther than half of what one has turned in it,

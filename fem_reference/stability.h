@@ -8,7 +8,10 @@
 //   and where C = 0 too: one negative pivot for each number of n, as many as its elimination takes away. Nothing is to
 //   be counted.
 // - What is left acts on the rotations, as do the lever arms of point loads: 3x3 blocks along the rod, positive
-// definite exactly at a minimum. Cost: an assembly, without the factorisation of the whole.
+//   definite exactly at a minimum.
+// Under tendons alone, or no loads, the energy is convex in the strains and nothing needs to be eliminated.
+//
+// Cost: an assembly, without the factorisation of the whole.
 #pragma once
 
 #include "fem_reference/beam_model.h"

@@ -26,7 +26,7 @@ using support::uniform_rod;
 
 struct Pull {
   Vector3d force_B_N = Vector3d::Zero();
-  Vector3d moment_B_Nmm = Vector3d::Zero();  // about a given place
+  Vector3d moment_B_Nmm = Vector3d::Zero();  // about the station
 };
 
 // A solved rod's stations, and which of them are ends of spans.
@@ -111,7 +111,7 @@ struct LoadsBeyond {
       start_mm += section.length_mm;
     }
   }
-  // On the rest of the rod a tendon pulls where it is cut, towards its fixed end it needs no other force.
+  // A tendon that passes the station is cut there and pulls it towards the clamp; at its end it still does.
   void operator()(const Tendon& tendon) {
     if (tendon.to_mm < here.s_mm - 1e-9) return;
     double end_mm = 0;
@@ -152,8 +152,10 @@ Imbalance imbalance(const scene::Scene& scene, const scene::Equilibrium& found) 
 
 struct Balanced {
   scene::Scene scene;
-  double force_N = 1e-9;  // limits
-  double moment_Nmm = 1e-8;
+  // Limits. Balance is exact on any mesh: round-off, measured 2e-13 and 8e-13 at most; but for the integrals of
+  // distributed loads over the stations, whose measured error is half of the limits given.
+  double force_N = 1e-11;
+  double moment_Nmm = 1e-10;
 };
 
 scene::Scene two_sections(std::vector<scene::Load> loads) {
@@ -189,27 +191,23 @@ std::vector<Balanced> balanced_scenes() {
           {two_sections({first, second, third, offset, along})},
           {two_sections({follower, turning, fixed})},
           {two_sections({follower, turning, first, second, offset})},
-          {two_sections({gravity}), 1e-9, 1e-5},
-          {two_sections({gravity, wind, first, second, offset}), 1e-9, 1e-5},
-          {two_sections({flow, fixed}), 1e-5, 1e-5},
-          {two_sections({flow, wind, gravity, first, third, offset, follower, turning, axial}), 1e-5, 1e-5}};
+          {two_sections({gravity}), 1e-11, 1.1e-7},
+          {two_sections({gravity, wind, first, second, offset}), 1e-11, 1.6e-6},
+          {two_sections({flow, fixed}), 1.6e-7, 4.9e-6},
+          {two_sections({flow, wind, gravity, first, third, offset, follower, turning, axial}), 4.8e-7, 1e-5}};
 }
 
 TEST(FemBalance, EveryStationCarriesTheLoadsBeyondIt) {
   int number = 0;
   for (const Balanced& balanced : balanced_scenes()) {
-    for (const int n : {50, 100, 200}) {
-      const auto [force_N, moment_Nmm] = imbalance(balanced.scene, solved(balanced.scene, bare(n)));
-      std::printf("%d: %d elements force %.3g moment %.3g\n", number, n, force_N, moment_Nmm);
-    }
-    const auto [force_N, moment_Nmm] = imbalance(balanced.scene, solved(balanced.scene, bare(50)));
+    const auto [force_N, moment_Nmm] = imbalance(balanced.scene, solved(balanced.scene));
     EXPECT_LT(force_N, balanced.force_N) << number;
     EXPECT_LT(moment_Nmm, balanced.moment_Nmm) << number;
     ++number;
   }
 }
 
-// The twin: the loads of a scene against the stations of another, whose last load is 5 % larger.
+// The twin: the loads of a scene, one of them 5 % larger, against the stations without that.
 TEST(FemBalance, OtherLoadsAreNotBalanced) {
   scene::Scene scene = two_sections({Tendon{{2, 0}, 4, 40}, Force{33, Frame::fixed, {0.3, -0.2, 0.4}, {2, -1}}});
   const scene::Equilibrium found = solved(scene);
@@ -254,8 +252,6 @@ TEST(FemBalance, TheEstimateBoundsTheErrorOfEveryStation) {
       const double error_mm = fem_benchmark::largest_error_mm(found, fine);
       EXPECT_GE(found.error_estimate_mm, error_mm) << order;
       EXPECT_LE(found.error_estimate_mm, 10 * error_mm) << order;
-      std::printf("order %d: estimate %.3g error %.3g ratio %.2f\n", order, found.error_estimate_mm, error_mm,
-                  found.error_estimate_mm / error_mm);
     }
   }
 }

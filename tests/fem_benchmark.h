@@ -27,8 +27,8 @@ std::vector<Benchmark> read_benchmarks(const std::string& file);
 // The largest error of the tip's position over L, of its rotation, and of the base's force and moment over their size.
 double error(const scene::Equilibrium& found, const Benchmark& exact);
 
-// The same scene on 320 cubic elements, and the largest distance of any station of another mesh from it; half as many
-// stations at least are common to both.
+// The same scene on 160 cubic elements, and the largest distance from it of any station of another mesh that both have:
+// s = k L/40, span ends and the nodes in common.
 scene::Equilibrium fine(const scene::Scene& scene);
 double largest_error_mm(const scene::Equilibrium& found, const scene::Equilibrium& fine);
 
