@@ -1,9 +1,13 @@
 // Residual and tangent of one element and of one nodal load.
 //
 // The element is the stationary point of the Hellinger-Reissner functional, dimensionless as in beam_model.h,
-//   sum over Gauss points of  w [ n . (v - e_x) - 1/2 n . C n + 1/2 (u - u_rest) . K_u (u - u_rest) ]  -  load work
-// with the internal force n (section frame) as an unknown of its own at each Gauss point. Where C > 0 this is the
-// displacement element with the same integration; C = 0 is the rod that does not stretch or shear, without a penalty.
+//   sum over Gauss points of  w [ n . (v - e_x) - 1/2 n . C n + 1/2 (u - u_rest) . K_u (u - u_rest) + sum T |v + u x r|
+//   ]
+//   -  load work
+// with the rod's own internal force n (section frame) as an unknown at each Gauss point and the tendons' lengths as
+// their energy (tendon_pull.h): the total force and moment are n + sum T d and K_u (u - u_rest) + sum r x T d. Where C
+// > 0 this is the displacement element with the same integration; C = 0 is the rod that does not stretch or shear,
+// without a penalty.
 //
 // Interpolation (Romero 2004, Comput. Mech. 34; Sander 2010, IJNME 81): r = sum N_i r_i and R = R(p), p = sum N_i q_i.
 //
@@ -38,13 +42,27 @@ ElementState state_of_element(const BeamModel& model, const BeamState& state, st
 void element_system(const ReferenceElement& reference, const ElementData& data, const ElementState& state,
                     double load_factor, ElementSystem& system);
 
-// Strains at Gauss point g: v (before any compliance) and u, section frame.
-struct SectionStrain {
-  Eigen::Vector3d v;
-  Eigen::Vector3d u;
-};
+// Strains at Gauss point g, v from the motion, not from n.
 SectionStrain element_strain(const ReferenceElement& reference, const ElementData& data, const ElementState& state,
                              int g);
+
+// A section anywhere in an element, 0 <= x <= 1, by the element's shape functions.
+struct SectionState {
+  Eigen::Vector3d position_B;
+  Eigen::Matrix3d rotation_BS;
+  SectionStrain strain;
+};
+SectionState section_at(const ReferenceElement& reference, const ElementData& data, const ElementState& state,
+                        double x);
+
+// Force and moment (base frame) on the two ends of an element whose residual this is, from outside of it, but for its
+// distributed loads: minus the total internal ones at the start, and the total internal ones at the end. They balance
+// the loads as the nodes' equilibrium does, to round-off, whatever the size of the element.
+struct EndWrenches {
+  Eigen::Vector3d start_force_B, start_moment_B;
+  Eigen::Vector3d end_force_B, end_moment_B;
+};
+EndWrenches end_wrenches(const ReferenceElement& reference, const ElementState& state, const ElementSystem& system);
 
 // What a point load adds to the residual of its node (force; moment in the section frame) and to the tangent.
 struct NodalSystem {

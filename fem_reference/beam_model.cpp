@@ -30,9 +30,9 @@ ElementData element_data(const scene::Span& span, double length_mm, double lengt
     if (k.shear_N) data.force_compliance.tail<2>() = force_unit_N * k.shear_N->cwiseInverse();
   }
   data.rest_curvature = span.rest_curvature_per_mm * length_unit_mm;
-  const scene::Wrench tendon = scaled(span.tendon_S, force_unit_N, moment_unit_Nmm);
-  data.tendon_force_S = tendon.force_N;
-  data.tendon_moment_S = tendon.moment_Nmm;
+  for (const scene::SectionTendon& tendon : span.tendons) {
+    data.tendons.push_back({tendon.arm_S_mm / length_unit_mm, tendon.tension_N / force_unit_N});
+  }
   data.follower_force_S = span.follower_force_S_N_per_mm / load_unit_N_per_mm;
   data.fixed_force_B = span.fixed_force_B_N_per_mm / load_unit_N_per_mm;
   return data;
@@ -70,9 +70,10 @@ BeamModel beam_model(const std::vector<scene::Span>& spans, const std::vector<in
     const ElementData data =
         element_data(span, span.length_mm() / cells[i], model.length_unit_mm, model.force_unit_N, kirchhoff);
     model.elements.insert(model.elements.end(), static_cast<std::size_t>(cells[i]), data);
-    if (span.follower_load_S.is_zero() && span.fixed_load_B.is_zero()) continue;
+    if (span.follower_load_S.is_zero() && !span.has_fixed_point_load()) continue;
     model.loads.push_back({model.nodes() - 1, scaled(span.follower_load_S, model.force_unit_N, model.moment_unit_Nmm()),
-                           scaled(span.fixed_load_B, model.force_unit_N, model.moment_unit_Nmm())});
+                           scaled(span.fixed_load_B, model.force_unit_N, model.moment_unit_Nmm()),
+                           span.fixed_force_arms_BS_Nmm / model.moment_unit_Nmm()});
   }
   return model;
 }

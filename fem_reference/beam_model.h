@@ -20,16 +20,22 @@ struct ElementData {
   Eigen::Vector3d force_compliance;  // 1 / K_v = 1 / (EA, kGA_y, kGA_z); 0: does not stretch, shear
   Eigen::Vector3d rest_curvature;    // u_rest
   // The rest is multiplied by the load factor.
-  Eigen::Vector3d tendon_force_S;
-  Eigen::Vector3d tendon_moment_S;
-  Eigen::Vector3d follower_force_S;  // per length
-  Eigen::Vector3d fixed_force_B;     // per length
+  std::vector<scene::SectionTendon> tendons;  // arms in L, tensions in EI / L^2
+  Eigen::Vector3d follower_force_S;           // per length
+  Eigen::Vector3d fixed_force_B;              // per length
+};
+
+// v = (1 + stretch, shear y, shear z), u = (torsion, bending y, bending z), section frame.
+struct SectionStrain {
+  Eigen::Vector3d v;
+  Eigen::Vector3d u;
 };
 
 struct NodalLoad {
   int node = 0;
   scene::Wrench follower_S;
   scene::Wrench fixed_B;
+  Eigen::Matrix3d fixed_force_arms_BS = Eigen::Matrix3d::Zero();  // as in scene::Span
 };
 
 struct BeamModel {
@@ -51,7 +57,7 @@ struct BeamModel {
 struct BeamState {
   std::vector<Eigen::Vector3d> position_B;
   std::vector<Quaternion> rotation_BS;
-  std::vector<Eigen::Vector3d> force_S;  // internal force without the tendons', section frame
+  std::vector<Eigen::Vector3d> force_S;  // the rod's own internal force (total less tendons), section frame
 };
 
 // Displacements (base frame), rotation vectors (section frame, rad), force increments; numbered as in BeamState.

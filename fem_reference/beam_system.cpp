@@ -92,7 +92,6 @@ struct BeamSystem::Implementation {
 
   ElementSystem element;
   dealii::FullMatrix<double> element_matrix;
-  Eigen::Matrix<double, 6, 1> clamp_residual;  // wall on rod, force then moment
 };
 
 BeamSystem::Implementation::Implementation(const BeamModel& beam)
@@ -155,7 +154,6 @@ void BeamSystem::Implementation::make_matrix() {
 
 void BeamSystem::Implementation::add_element(std::size_t e, const BeamState& state, double load_factor) {
   element_system(model.reference, model.elements[e], state_of_element(model, state, e), load_factor, element);
-  if (e == 0) clamp_residual = element.residual.head<6>();
 
   const std::vector<Index>& unknowns = element_unknowns[e];
   for (unsigned int i = 0; i < unknowns.size(); ++i) {
@@ -190,8 +188,6 @@ Residual BeamSystem::Implementation::measure() const {
   for (const Index i : force_unknowns) {
     if (!(std::abs(residual[i]) <= result.largest_gap)) result.largest_gap = std::abs(residual[i]);
   }
-  result.clamp_force_B = clamp_residual.head<3>();
-  result.clamp_moment_B = clamp_residual.tail<3>();  // the clamp's section frame is the base frame
   return result;
 }
 

@@ -12,9 +12,7 @@ namespace fem_reference {
 struct Residual {
   double largest_force = 0;  // of the equilibrium equations of the free nodes
   double largest_moment = 0;
-  double largest_gap = 0;         // of the strain equations of the Gauss points, weighted by length
-  Eigen::Vector3d clamp_force_B;  // exerted by the wall on the rod
-  Eigen::Vector3d clamp_moment_B;
+  double largest_gap = 0;  // of the strain equations of the Gauss points, weighted by length
 
   double largest() const;
   bool finite() const;

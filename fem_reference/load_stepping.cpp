@@ -1,7 +1,9 @@
 #include "fem_reference/load_stepping.h"
 
+#include "fem_reference/beam_element.h"
 #include "fem_reference/branch_watch.h"
 #include "fem_reference/stability.h"
+#include "fem_reference/tendon_pull.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +14,17 @@ namespace fem_reference {
 
 namespace {
 
-enum class Outcome { converged, turned_too_far, surprised, lost_stability, left_branch, stalled, singular, not_finite };
+enum class Outcome {
+  converged,
+  turned_too_far,
+  surprised,
+  lost_stability,
+  left_branch,
+  stalled,
+  singular,
+  tendon_collapsed,
+  not_finite
+};
 
 const char* reason(Outcome outcome) {
   switch (outcome) {
@@ -23,6 +35,7 @@ const char* reason(Outcome outcome) {
     case Outcome::left_branch: return "the tangent's determinant belongs to another branch";
     case Outcome::stalled: return "Newton's iteration does not converge";
     case Outcome::singular: return "the tangent is singular";
+    case Outcome::tendon_collapsed: return "a tendon's path has no length somewhere, |v + u x r| -> 0";
     case Outcome::not_finite: return "a value is not finite";
   }
   return "";
@@ -48,16 +61,17 @@ Attempt iterate(BeamSystem& system, const BeamState& start, BeamState& state, do
                 const SteppingOptions& options) {
   Attempt attempt;
   BeamIncrement increment;
-  bool small_increment = false;
+  // Not of the forces: where the rod hardly stretches or shears they follow from the strains with little accuracy, and
+  // the residual bounds them.
+  double largest_increment = INFINITY;
   while (true) {
     attempt.residual = system.assemble(state, load_factor);
     attempt.rotation_rad = largest_rotation(start, state);
-    const double force_scale = std::max(1.0, largest(state.force_S));
     if (!attempt.residual.finite() || !all_finite(state)) {
       attempt.outcome = Outcome::not_finite;
       return attempt;
     }
-    const bool converged = small_increment && attempt.residual.largest() <= options.tolerance * force_scale;
+    const bool converged = is_converged(largest_increment, attempt.residual, largest(state.force_S), options.tolerance);
     // Before convergence the bound is wider: an iterate may overshoot and come back.
     if (attempt.rotation_rad > (converged ? 1.0 : 1.5) * options.largest_rotation_rad) {
       attempt.outcome = Outcome::turned_too_far;
@@ -73,10 +87,24 @@ Attempt iterate(BeamSystem& system, const BeamState& start, BeamState& state, do
     }
     ++attempt.iterations;
     advance(state, increment);
-    // Not the forces: where the rod hardly stretches or shears they follow from the strains with little accuracy, and
-    // the residual bounds them.
-    small_increment = std::max(largest(increment.displacement_B), largest(increment.rotation_S)) <= options.tolerance;
+    largest_increment = std::max(largest(increment.displacement_B), largest(increment.rotation_S));
   }
+}
+
+// Whether a tendon has collapsed anywhere on the way between two states (tendon_pull.h).
+bool tendon_collapses(const BeamModel& model, const BeamState& from, const BeamState& to) {
+  for (std::size_t e = 0; e < model.elements.size(); ++e) {
+    const ElementData& data = model.elements[e];
+    if (data.tendons.empty()) continue;
+    const ElementState before = state_of_element(model, from, e), after = state_of_element(model, to, e);
+    for (int g = 0; g < model.reference.points(); ++g) {
+      if (collapses(data, element_strain(model.reference, data, before, g),
+                    element_strain(model.reference, data, after, g))) {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 // Where a step lands on a branch beside the one it began on, the surprise is as large as the whole motion.
@@ -99,8 +127,17 @@ double shrunk(double step, const Attempt& attempt, const SteppingOptions& option
   return step * std::clamp(0.8 * options.largest_rotation_rad / attempt.rotation_rad, 0.1, 0.5);
 }
 
+// Of a scene whose last load step, too small to go on, ended so.
+scene::Status status_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::not_finite: return scene::Status::not_finite;
+    case Outcome::tendon_collapsed: return scene::Status::tendon_collapsed;
+    default: return scene::Status::load_step_too_small;
+  }
+}
+
 std::string failure_message(double load_factor, double step, const Attempt& attempt) {
-  char text[200];
+  char text[250];
   std::snprintf(text, sizeof text,
                 "load factor %.6g of 1 reached; a further step of %.2g fails after %d iterations: %s", load_factor,
                 step, attempt.iterations, reason(attempt.outcome));
@@ -123,6 +160,7 @@ double load_size(const BeamModel& model) {
     for (const scene::Wrench* wrench : {&load.follower_S, &load.fixed_B}) {
       size += wrench->force_N.norm() + wrench->moment_Nmm.norm();
     }
+    size += load.fixed_force_arms_BS.norm();
   }
   for (const ElementData& element : model.elements) {
     size += element.length * (element.follower_force_S.norm() + element.fixed_force_B.norm());
@@ -144,11 +182,15 @@ class Stepping {
   }
 
   SteppingResult run() {
+    if (tendon_collapses(model_, state_, state_)) {
+      last_.outcome = Outcome::tendon_collapsed;
+      return failed(scene::Status::tendon_collapsed, 0);
+    }
     // The interpolation of a curved rest shape is not exactly stress-free.
     if (curved_ && !try_step(0)) return failed(scene::Status::not_converged, 0);
     if (watches_determinant_) start_watch();
     while (load_factor_ < 1) {
-      if (tried_ == options_.max_load_steps) return failed(scene::Status::not_converged, step_);
+      if (tried_ == options_.max_load_steps) return failed(scene::Status::work_limit, step_);
       step_ = std::min(step_, longest_step());
       if (step_ < options_.smallest_load_step) {
         last_.outcome = Outcome::left_branch;
@@ -163,14 +205,9 @@ class Stepping {
         continue;
       }
       step_ = shrunk(step, last_, options_);
-      if (step_ < options_.smallest_load_step) {
-        const bool not_finite = last_.outcome == Outcome::not_finite;
-        return failed(not_finite ? scene::Status::not_finite : scene::Status::load_step_too_small, step);
-      }
+      if (step_ < options_.smallest_load_step) return failed(status_of(last_.outcome), step);
     }
     result_.status = scene::Status::converged;
-    result_.clamp_force_B = last_.residual.clamp_force_B;
-    result_.clamp_moment_B = last_.residual.clamp_moment_B;
     result_.state = std::move(state_);
     return std::move(result_);
   }
@@ -185,6 +222,7 @@ class Stepping {
     const BeamState guess = trial;
     last_ = iterate(system_, state_, trial, target, options_);
     result_.newton_iterations += last_.iterations;
+    if (tendon_collapses(model_, state_, trial)) last_.outcome = Outcome::tendon_collapsed;
     if (last_.outcome != Outcome::converged) return false;
     if (last_step_ > 0) last_.surprise_rad = largest_rotation(guess, trial);
     else if (step > 0 && last_.rotation_rad > 0.5 * options_.largest_rotation_rad) last_.surprise_rad = INFINITY;
@@ -270,6 +308,10 @@ class Stepping {
 };
 
 }  // namespace
+
+bool is_converged(double largest_increment, const Residual& residual, double largest_force, double tolerance) {
+  return largest_increment <= tolerance && residual.largest() <= tolerance * std::max(1.0, largest_force);
+}
 
 SteppingResult step_to_full_load(const BeamModel& model, const SteppingOptions& options) {
   return Stepping(model, options).run();

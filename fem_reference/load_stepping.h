@@ -19,23 +19,24 @@ struct SteppingOptions {
   double smallest_bifurcation_step = 1e-5;
 };
 
-// state, clamp force and moment (dimensionless, exerted by the wall on the rod) only when the status is `converged`.
+// state only when the status is `converged`.
 struct SteppingResult {
   scene::Status status = scene::Status::not_converged;
   std::string message;
   BeamState state;
-  Eigen::Vector3d clamp_force_B;
-  Eigen::Vector3d clamp_moment_B;
   std::optional<bool> stable;  // stability.h; empty where the loads are not conservative, and where it is neutral
   int load_steps = 0;          // accepted
   int newton_iterations = 0;   // all, those of rejected steps included
 };
 
+// Newton's iteration ends: largest increment of a node (displacement over L, rotation in rad) <= tolerance and largest
+// residual <= tolerance F, with F = max(1, largest internal force) in EI / L^2.
+bool is_converged(double largest_increment, const Residual& residual, double largest_force, double tolerance);
+
 // From the rest shape to the full load, along the path of equilibria.
 //
 // A step is accepted when
-//   largest Newton increment of a node <= tolerance (displacements over L, rotations in rad) and
-//   largest residual <= tolerance F, with F = max(1, largest internal force) in EI / L^2, and
+//   Newton's iteration has converged, and
 //   no node has turned by more than largest_rotation_rad in the step, half of that in the first one, and
 //   no node lies farther than a twelfth of largest_rotation_rad from where the last step pointed, nor, unless the step
 //   is shorter than a sixteenth of the last, farther than half of what one has turned in it,
@@ -47,7 +48,9 @@ struct SteppingResult {
 // one that is not is halved as well, in planar scenes and on the axis down to smallest_bifurcation_step, where it is
 // accepted. Loads that all follow the rod leave it one equilibrium, and nothing to watch.
 //
-// An accepted step in which an element turns by pi or more from end to end, beyond what the mesh can show, is the last.
+// A step in which a tendon collapses (tendon_pull.h) is refused; where the steps become too small for that, the status
+// is tendon_collapsed. One that ends with max_load_steps has the status work_limit. An accepted step in which an
+// element turns by pi or more from end to end, beyond what the mesh can show, is the last.
 SteppingResult step_to_full_load(const BeamModel& model, const SteppingOptions& options);
 
 }  // namespace fem_reference

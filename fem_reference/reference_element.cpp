@@ -9,6 +9,19 @@
 
 namespace fem_reference {
 
+ReferenceElement::Shape ReferenceElement::shape(double x) const {
+  Shape shape{List<max_nodes>::Ones(nodes()), List<max_nodes>::Zero(nodes())};
+  for (int i = 0; i < nodes(); ++i) {
+    for (int j = 0; j < nodes(); ++j) {
+      if (j == i) continue;
+      const double factor = (x - node(j)) / (node(i) - node(j));
+      shape.slope(i) = shape.slope(i) * factor + shape.value(i) / (node(i) - node(j));
+      shape.value(i) *= factor;
+    }
+  }
+  return shape;
+}
+
 ReferenceElement reference_element(int order, int points) {
   const dealii::FE_Q<1> shape(static_cast<unsigned int>(order));
   const dealii::QGauss<1> gauss(static_cast<unsigned int>(points));

@@ -20,6 +20,13 @@ struct ReferenceElement {
   Table value;              // shape functions at the points: value(point, node)
   Table slope;              // their derivatives by x
 
+  // The shape functions of all nodes and their derivatives at any x.
+  struct Shape {
+    List<max_nodes> value;
+    List<max_nodes> slope;
+  };
+  Shape shape(double x) const;
+
   int nodes() const { return static_cast<int>(node.rows()); }
   int points() const { return static_cast<int>(point.rows()); }
   int order() const { return nodes() - 1; }

@@ -45,7 +45,7 @@ Block energy_of_rotations(const ElementSystem& system, const Parting& parting) {
   const Block coupling = system.tangent(parting.followers, parting.rotations);
   Block form = system.tangent(parting.rotations, parting.rotations);
   form -= coupling.transpose() * pivot.partialPivLu().solve(coupling);
-  // The skew part is half the moments at the nodes, whose sum over the elements is zero in equilibrium.
+  // The skew part is half the moments at the nodes, whose sum over the elements and point loads is zero in equilibrium.
   return 0.5 * (form + form.transpose());
 }
 
@@ -60,19 +60,44 @@ std::optional<bool> is_positive(const Block& form, double round_off) {
   return least > 0;
 }
 
+// The same of the point loads at a node.
+class LoadEnergy {
+ public:
+  LoadEnergy(const BeamModel& model, const BeamState& state, double load_factor)
+      : model_(model), state_(state), load_factor_(load_factor), next_(model.loads.size()) {}
+
+  // The nodes are to be asked for from the tip to the clamp.
+  Eigen::Matrix3d by_rotation(std::size_t node) {
+    if (next_ == 0 || static_cast<std::size_t>(model_.loads[next_ - 1].node) != node) return Eigen::Matrix3d::Zero();
+    const NodalSystem system = nodal_system(model_.loads[--next_], state_.rotation_BS[node], load_factor_);
+    const Eigen::Matrix3d form = system.tangent.bottomRightCorner<3, 3>();
+    return 0.5 * (form + form.transpose());
+  }
+
+ private:
+  const BeamModel& model_;
+  const BeamState& state_;
+  double load_factor_;
+  std::size_t next_;
+};
+
 }  // namespace
 
 std::optional<bool> is_stable(const BeamModel& model, const BeamState& state, double load_factor) {
+  // Nothing but tendons: their lengths and the elastic energy are convex in the strains, which nothing else holds.
+  if (model.conservative && model.all_loads_follow) return true;
   const ReferenceElement& reference = model.reference;
   const Parting parts = parting(reference);
   const int free = 3 * reference.order();
   Eigen::Matrix3d distal = Eigen::Matrix3d::Zero();  // the energy of all that lies beyond, by the rotation of its start
+  LoadEnergy loads(model, state, load_factor);
   ElementSystem system;
   double shortest = 1;
   for (std::size_t e = model.elements.size(); e-- > 0;) {
     element_system(reference, model.elements[e], state_of_element(model, state, e), load_factor, system);
     Block form = energy_of_rotations(system, parts);
-    form.bottomRightCorner<3, 3>() += distal;
+    const std::size_t end = (e + 1) * static_cast<std::size_t>(reference.order());
+    form.bottomRightCorner<3, 3>() += distal + loads.by_rotation(end);
     shortest = std::min(shortest, model.elements[e].length);
     const Block pivot = form.bottomRightCorner(free, free);
     // Each node adds an error of about 1e-16 / length to `distal`; at the clamp a pivot is of order length * (distance

@@ -4,9 +4,13 @@
 // energy's own Hessian is what is left of it when the internal forces n are eliminated. Elimination runs element by
 // element from the tip to the clamp; Sylvester's law adds up the signs of the pivots.
 // - Displacements and n of an element go first. Moving the distal rod without turning it costs no energy under dead
-//   loads, so their pivot block is [0 B^T; B -C] with B of full rank, whatever the state and where C = 0 too: one
-//   negative pivot for each number of n, as many as its elimination takes away. Nothing is to be counted.
-// - What is left acts on the rotations: 3x3 blocks along the rod, positive definite exactly at a minimum.
+//   loads, so their pivot block is [A B^T; B -C] with A >= 0 from the tendons and B of full rank, whatever the state
+//   and where C = 0 too: one negative pivot for each number of n, as many as its elimination takes away. Nothing is to
+//   be counted.
+// - What is left acts on the rotations, as do the lever arms of point loads: 3x3 blocks along the rod, positive
+//   definite exactly at a minimum.
+// Under tendons alone, or no loads, the energy is convex in the strains and nothing needs to be eliminated.
+//
 // Cost: an assembly, without the factorisation of the whole.
 #pragma once
 

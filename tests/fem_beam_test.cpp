@@ -1,6 +1,5 @@
 // The finite element beam against closed forms, published benchmarks and independent solutions.
-#include "fem_reference/solve.h"
-#include "support.h"
+#include "fem_benchmark.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -11,11 +10,17 @@
 namespace {
 
 using Eigen::Vector3d;
+using fem_benchmark::bare;
+using fem_benchmark::solved;
 using fem_reference::Options;
 using fem_reference::RodModel;
 using scene::Frame;
 
 constexpr double pi = std::numbers::pi;
+
+// Limits are at most twice what is measured, which stands beside them; each has a twin of 5 % more stiffness that must
+// miss it. Where nothing but Newton's tolerance and round-off is left of the error:
+constexpr double round_off_mm = 1e-11;  // measured 1e-13 at most
 
 using support::number;
 using support::read_csv;
@@ -33,21 +38,6 @@ scene::Stiffness stiffness(double torsion_Nmm2, double bending_Nmm2, double axia
   result.axial_N = axial_N;
   result.shear_N = Eigen::Vector2d::Constant(shear_N);
   return result;
-}
-
-Options bare(int elements = 50, int order = 2) {
-  Options options;
-  options.elements = elements;
-  options.order = order;
-  options.estimate_error = false;
-  return options;
-}
-
-scene::Equilibrium solved(const scene::Scene& scene, const Options& options) {
-  scene::Equilibrium found = fem_reference::solve(scene, options);
-  EXPECT_TRUE(found.converged()) << scene::name(found.status) << ": " << found.message;
-  if (!found.converged()) found.stations.resize(1);  // lets a failed expectation go on to the next
-  return found;
 }
 
 Vector3d tip_mm(const scene::Scene& scene, const Options& options) {
@@ -75,38 +65,42 @@ TEST(FemBeam, RollUpByAnEndMoment) {
   };
   for (const scene::Stiffness& k : {stiffness(500, EI), stiffness(500, EI, 333, 99)}) {
     const scene::Equilibrium one = roll(1, k, bare(50));
-    EXPECT_LT(one.tip().position_B_mm.norm(), 1e-6 * L);
-    EXPECT_NEAR(one.tip_angle_rad, 2 * pi, 1e-5);
-    EXPECT_LT((one.base().moment_B_Nmm - Vector3d(0, 0, 2 * pi * EI / L)).norm(), 1e-9 * EI / L);
+    EXPECT_LT(one.tip().position_B_mm.norm(), 1e-5);  // measured 5.2e-6
+    EXPECT_NEAR(one.tip_angle_rad, 2 * pi, 1.6e-6);   // 8.2e-7
+    EXPECT_LT((one.base().moment_B_Nmm - Vector3d(0, 0, 2 * pi * EI / L)).norm(), round_off_mm * EI / L);
     const scene::Equilibrium two = roll(2, k, bare(50));
-    EXPECT_LT(two.tip().position_B_mm.norm(), 1e-5 * L);
-    EXPECT_NEAR(two.tip_angle_rad, 4 * pi, 1e-4);
+    EXPECT_LT(two.tip().position_B_mm.norm(), 1.6e-4);  // 8.3e-5
+    EXPECT_NEAR(two.tip_angle_rad, 4 * pi, 5e-5);       // 2.6e-5
     const scene::Equilibrium finer = roll(2, k, bare(100));
-    EXPECT_LT(finer.tip().position_B_mm.norm(), 1e-6 * L);
-    EXPECT_NEAR(finer.tip_angle_rad, 4 * pi, 1e-5);
+    EXPECT_LT(finer.tip().position_B_mm.norm(), 1e-5);  // 5.2e-6
+    EXPECT_NEAR(finer.tip_angle_rad, 4 * pi, 3.2e-6);   // 1.6e-6
   }
-  EXPECT_GT(roll(1, stiffness(500, 1.05 * EI), bare()).tip().position_B_mm.norm(), 1e-2 * L);
+  const scene::Equilibrium twin = roll(1, stiffness(500, 1.05 * EI), bare());
+  EXPECT_GT(twin.tip().position_B_mm.norm(), 1e-2 * L);
+  EXPECT_GT(2 * pi - twin.tip_angle_rad, 0.2);
 }
 
 TEST(FemBeam, TwistByAnEndMoment) {
-  // Torsion alone: the rod stays straight and turns by M L / GJ, here through more than one turn.
-  const scene::Equilibrium found =
-      solved(uniform_rod(40, stiffness(500, 750), {scene::Moment{40, Frame::follower, {100, 0, 0}}}), bare());
-  EXPECT_LT((found.tip().position_B_mm - Vector3d(40, 0, 0)).norm(), 1e-10);
-  EXPECT_NEAR(found.tip_angle_rad, 8, 1e-5);
+  // Torsion alone: the rod stays straight and turns by M L / GJ, here through more than one turn, of which a rotation
+  // outside a plane shows the rest.
+  const auto twisted = [](double torsion_Nmm2) {
+    return solved(uniform_rod(40, stiffness(torsion_Nmm2, 750), {scene::Moment{40, Frame::follower, {100, 0, 0}}}));
+  };
+  const scene::Equilibrium found = twisted(500);
+  EXPECT_LT((found.tip().position_B_mm - Vector3d(40, 0, 0)).norm(), round_off_mm);
+  EXPECT_NEAR(found.tip_angle_rad, 8 - 2 * pi, 5.5e-6);  // measured 2.7e-6
+  EXPECT_GT(std::abs(twisted(525).tip_angle_rad - (8 - 2 * pi)), 0.1);
 }
 
 TEST(FemBeam, StretchAndShearOfAShortRod) {
   // A follower force along the rod stretches it by F / EA.
   const scene::Equilibrium found =
       solved(uniform_rod(40, stiffness(500, 750, 333, 99), {scene::Force{40, Frame::follower, {30, 0, 0}}}), bare());
-  EXPECT_NEAR(found.tip().position_B_mm.x(), 40 * (1 + 30 / 333.0), 1e-10);
+  EXPECT_NEAR(found.tip().position_B_mm.x(), 40 * (1 + 30 / 333.0), round_off_mm);
 }
 
 // --- published benchmarks and computed tables
 // -------------------------------------------------------------------------
-
-constexpr double table_gate = 1e-4;
 
 TEST(FemBeam, ElasticaUnderAFixedTipForce) {
   Options options = bare();
@@ -115,10 +109,10 @@ TEST(FemBeam, ElasticaUnderAFixedTipForce) {
     const double alpha = number(row, "alpha");
     const Vector3d exact(1 - number(row, "u_over_L"), number(row, "w_over_L"), 0);
     const scene::Equilibrium found = solved(cantilever(Frame::fixed, alpha), options);
-    EXPECT_LT((found.tip().position_B_mm - exact).norm(), table_gate) << alpha;
-    EXPECT_NEAR(found.tip_angle_rad, number(row, "theta_rad"), table_gate) << alpha;
+    EXPECT_LT((found.tip().position_B_mm - exact).norm(), 3.8e-6) << alpha;       // measured 1.9e-6 of L
+    EXPECT_NEAR(found.tip_angle_rad, number(row, "theta_rad"), 4.4e-8) << alpha;  // 2.2e-8
     if (alpha < 1 || alpha > 10) continue;
-    EXPECT_GT((tip_mm(cantilever(Frame::fixed, alpha, 1.05), options) - exact).norm(), 10 * table_gate) << alpha;
+    EXPECT_GT((tip_mm(cantilever(Frame::fixed, alpha, 1.05), options) - exact).norm(), 1e-3) << alpha;
   }
 }
 
@@ -130,10 +124,10 @@ TEST(FemBeam, ElasticaUnderAFollowerTipForce) {
     const double beta = number(rows[i], "beta");
     const Vector3d exact(number(rows[i], "x_over_L"), number(rows[i], "y_over_L"), 0);
     const scene::Equilibrium found = solved(cantilever(Frame::follower, beta), options);
-    EXPECT_LT((found.tip().position_B_mm - exact).norm(), table_gate) << beta;
-    EXPECT_NEAR(found.tip_angle_rad, number(rows[i], "theta_rad"), table_gate) << beta;
+    EXPECT_LT((found.tip().position_B_mm - exact).norm(), 7.5e-6) << beta;           // measured 3.8e-6 of L
+    EXPECT_NEAR(found.tip_angle_rad, number(rows[i], "theta_rad"), 1.5e-5) << beta;  // 7.7e-6
     if (beta < 1) continue;
-    EXPECT_GT((tip_mm(cantilever(Frame::follower, beta, 1.05), options) - exact).norm(), 10 * table_gate) << beta;
+    EXPECT_GT((tip_mm(cantilever(Frame::follower, beta, 1.05), options) - exact).norm(), 1e-3) << beta;
   }
 }
 
@@ -146,9 +140,9 @@ TEST(FemBeam, HeavyElastica) {
         uniform_rod(1, stiffness(1, 1), {scene::DistributedForce{0, 1, Frame::fixed, {0, g, 0}}});
     const Vector3d exact(number(row, "x_over_L"), number(row, "y_over_L"), 0);
     // At g = 1000 the rod turns within a boundary layer at the clamp, L / 10 long.
-    EXPECT_LT((tip_mm(scene, options) - exact).norm(), table_gate) << g;
+    EXPECT_LT((tip_mm(scene, options) - exact).norm(), 1e-4) << g;  // measured 5.3e-5 of L
     if (g >= 1 && g <= 100) {  // beyond, the tip hangs straight down whatever the stiffness
-      EXPECT_GT((tip_mm(support::stiffer(scene), options) - exact).norm(), table_gate) << g;
+      EXPECT_GT((tip_mm(support::stiffer(scene), options) - exact).norm(), 1e-4) << g;
     }
   }
 }
@@ -166,8 +160,9 @@ TEST(FemBeam, Bend45Degrees) {
     if (row.at("model") != "SR" || row.at("GJ_choice") != "polar") continue;
     const double force_N = number(row, "F");
     const Vector3d exact(number(row, "x"), number(row, "y"), number(row, "z"));
-    EXPECT_LT((tip_mm(bend_45_degrees(force_N), bare()) - exact).norm(), table_gate * exact.norm()) << force_N;
-    EXPECT_GT((tip_mm(bend_45_degrees(force_N, 1.05), bare()) - exact).norm(), 10 * table_gate * exact.norm());
+    // Measured 2.2e-7.
+    EXPECT_LT((tip_mm(bend_45_degrees(force_N), bare()) - exact).norm(), 4.3e-7 * exact.norm()) << force_N;
+    EXPECT_GT((tip_mm(bend_45_degrees(force_N, 1.05), bare()) - exact).norm(), 1e-3 * exact.norm());
     ++compared;
   }
   EXPECT_EQ(compared, 4);  // 300, 450, 600, 3000
@@ -178,7 +173,7 @@ TEST(FemBeam, HelixOfTenTurns) {
       uniform_rod(10, stiffness(100, 100, 1e4, 1e4),
                   {scene::Force{10, Frame::fixed, {0, 0, 50}}, scene::Moment{10, Frame::fixed, {0, 0, 200 * pi}}});
   const Vector3d exact = Vector3d(10, 0, 0) + Vector3d(-9.9951967503, 0.0000724968, -0.0764417417);
-  EXPECT_LT((tip_mm(scene, bare(100, 3)) - exact).norm(), 1e-4 * 10);
+  EXPECT_LT((tip_mm(scene, bare(100, 3)) - exact).norm(), 1.5e-6);  // measured 7.7e-7
   EXPECT_GT((tip_mm(support::stiffer(scene), bare(100, 3)) - exact).norm(), 1e-4 * 10);
 }
 
@@ -188,7 +183,7 @@ TEST(FemBeam, ThickCantileverWithShear) {
   const scene::Scene scene = uniform_rod(2, stiffness(1e9, E * b * h * h * h / 12, EA, k * EA / (2 * (1 + nu))),
                                          {scene::Force{2, Frame::fixed, {0, 6.25e7, 0}}});
   const Vector3d exact(2 - 0.150971144239, 0.710568597854, 0);
-  EXPECT_LT((tip_mm(scene, bare()) - exact).norm(), 1e-6 * 2);
+  EXPECT_LT((tip_mm(scene, bare()) - exact).norm(), 4.2e-9);  // measured 2.1e-9
   EXPECT_GT((tip_mm(support::stiffer(scene), bare()) - exact).norm(), 1e-6 * 2);
 }
 
@@ -200,9 +195,9 @@ TEST(FemBeam, LargeFixedForceStaysOnTheStableBranch) {
     return tip_mm(support::stiffer(scene, stiffness_factor), bare(200));
   };
   const Vector3d exact_111(-4.7903, 29.7072, 22.2804), exact_1112(-9.37405, 30.35216, 22.76412);
-  EXPECT_LT((tip(100, 1) - exact_111).norm(), 2e-4);
+  EXPECT_LT((tip(100, 1) - exact_111).norm(), 6e-5);  // measured 3.1e-5: the reference's last digit
   EXPECT_GT((tip(100, 1.05) - exact_111).norm(), 2e-4);
-  EXPECT_LT((tip(1000, 1) - exact_1112).norm(), 1e-4);
+  EXPECT_LT((tip(1000, 1) - exact_1112).norm(), 4e-5);  // measured 2.0e-5
   EXPECT_GT((tip(1000, 1.05) - exact_1112).norm(), 1e-4);
 }
 
@@ -227,14 +222,16 @@ struct Reference {
   Vector3d tip_mm, base_force_N, base_moment_Nmm;
 };
 
-// The scene meets the reference; a stiffer rod does not.
+// The scene meets the reference; a stiffer rod does not. Measured: 5.0e-9 mm, 2.2e-11 N, 1.3e-9 N mm at most.
 void expect_equal(const scene::Scene& scene, const Options& options, const Reference& reference) {
-  const double limit_mm = 1e-7 * 40;
+  const double limit_mm = 1e-8;
   const scene::Equilibrium found = solved(scene, options);
   EXPECT_LT((found.tip().position_B_mm - reference.tip_mm).norm(), limit_mm);
-  EXPECT_LT((found.base().force_B_N - reference.base_force_N).norm(), 1e-6);
-  EXPECT_LT((found.base().moment_B_Nmm - reference.base_moment_Nmm).norm(), 1e-5);
-  EXPECT_GT((tip_mm(support::stiffer(scene), options) - reference.tip_mm).norm(), limit_mm);
+  EXPECT_LT((found.base().force_B_N - reference.base_force_N).norm(), 4.4e-11);
+  EXPECT_LT((found.base().moment_B_Nmm - reference.base_moment_Nmm).norm(), 2.7e-9);
+  const scene::Equilibrium twin = solved(support::stiffer(scene), options);
+  EXPECT_GT((twin.tip().position_B_mm - reference.tip_mm).norm(), 1e6 * limit_mm);
+  EXPECT_GT((twin.base().moment_B_Nmm - reference.base_moment_Nmm).norm(), 1e-3);
 }
 
 std::vector<scene::Load> mixed_loads() {
@@ -276,19 +273,6 @@ TEST(FemBeam, DistributedForcesAndGravity) {
                 {0.210210133445, 5.88832501453, 3.2869020543}});
 }
 
-TEST(FemBeam, ATendonBendsItsPartOfTheRodIntoAnArc) {
-  // Constant internal force and moment over 0...30 mm, in the section frame: an arc, and a straight rest.
-  const double T = 8, y = 1.5, EI = 1500, EA = 500, bent_mm = 30, rest_mm = 10;
-  const scene::Scene scene = uniform_rod(40, stiffness(1000, EI, EA, 150), {scene::Tendon{{y, 0}, T, bent_mm}});
-  const scene::Equilibrium found = solved(scene, bare(100));
-  const double kappa = y * T / EI, stretch = 1 - T / EA, angle = kappa * bent_mm;
-  const Vector3d exact(stretch * std::sin(angle) / kappa + rest_mm * std::cos(angle),
-                       stretch * (1 - std::cos(angle)) / kappa + rest_mm * std::sin(angle), 0);
-  EXPECT_LT((found.tip().position_B_mm - exact).norm(), 1e-7 * 40);
-  EXPECT_LT((found.base().force_B_N - Vector3d(-T, 0, 0)).norm(), 1e-9);
-  EXPECT_LT((found.base().moment_B_Nmm - Vector3d(0, 0, y * T)).norm(), 1e-8);
-}
-
 // --- order, locking, invariance
 // ---------------------------------------------------------------------------------------
 
@@ -305,7 +289,7 @@ TEST(FemBeam, TipConvergesWithTwiceTheOrder) {
     const int n = coarse[order - 1];
     const double first = (tip_mm(scene, bare(n, order)) - exact_mm).norm();
     const double second = (tip_mm(scene, bare(2 * n, order)) - exact_mm).norm();
-    EXPECT_NEAR(std::log2(first / second), 2 * order, 0.25) << order;
+    EXPECT_NEAR(std::log2(first / second), 2 * order, 0.024) << order;  // measured 0.012
   }
 }
 
@@ -343,8 +327,8 @@ TEST(FemBeam, ResultDoesNotDependOnTheLoadSteps) {
     few.largest_rotation_rad = 3;
     const scene::Equilibrium large_steps = solved(scene, few);
     EXPECT_GT(fact(small_steps, "load_steps"), 2 * fact(usual, "load_steps"));
-    EXPECT_LT((small_steps.tip().position_B_mm - usual.tip().position_B_mm).norm(), 1e-9);
-    EXPECT_LT((large_steps.tip().position_B_mm - usual.tip().position_B_mm).norm(), 1e-9);
+    EXPECT_LT((small_steps.tip().position_B_mm - usual.tip().position_B_mm).norm(), round_off_mm);
+    EXPECT_LT((large_steps.tip().position_B_mm - usual.tip().position_B_mm).norm(), round_off_mm);
   }
 }
 
@@ -363,10 +347,11 @@ TEST(FemBeam, ATurnedSceneHasTheTurnedAnswer) {
   const scene::Equilibrium b = solved(scene(Q), bare());
   ASSERT_EQ(a.stations.size(), b.stations.size());
   for (std::size_t i = 0; i < a.stations.size(); ++i) {
-    EXPECT_LT((Q * a.stations[i].X_BS.position_B_mm - b.stations[i].X_BS.position_B_mm).norm(), 1e-9);
-    EXPECT_LT((Q * a.stations[i].X_BS.rotation_BS * Q.transpose() - b.stations[i].X_BS.rotation_BS).norm(), 1e-9);
+    EXPECT_LT((Q * a.stations[i].X_BS.position_B_mm - b.stations[i].X_BS.position_B_mm).norm(), round_off_mm);
+    EXPECT_LT((Q * a.stations[i].X_BS.rotation_BS * Q.transpose() - b.stations[i].X_BS.rotation_BS).norm(),
+              round_off_mm);
+    EXPECT_LT((Q * a.stations[i].moment_B_Nmm - b.stations[i].moment_B_Nmm).norm(), round_off_mm);
   }
-  EXPECT_LT((Q * a.base().moment_B_Nmm - b.base().moment_B_Nmm).norm(), 1e-8);
 }
 
 // --- what is reported
@@ -374,14 +359,14 @@ TEST(FemBeam, ATurnedSceneHasTheTurnedAnswer) {
 
 TEST(FemBeam, UnloadedRodKeepsItsRestShape) {
   scene::Scene scene = uniform_rod(40, stiffness(1000, 1500), {});
-  EXPECT_LT((tip_mm(scene, bare()) - Vector3d(40, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((tip_mm(scene, bare()) - Vector3d(40, 0, 0)).norm(), round_off_mm);
   scene.sections[0].rest_curvature_per_mm = {0, 0, 0.05};
-  EXPECT_LT((tip_mm(scene, bare()) - Vector3d(std::sin(2.0), 1 - std::cos(2.0), 0) / 0.05).norm(), 1e-6 * 40);
+  EXPECT_LT((tip_mm(scene, bare()) - Vector3d(std::sin(2.0), 1 - std::cos(2.0), 0) / 0.05).norm(), 6.7e-8);  // 3.3e-8
 }
 
 TEST(FemBeam, StationsRunFromClampToTip) {
   const scene::Equilibrium found = solved(two_sections(mixed_loads()), Options{});
-  ASSERT_EQ(found.stations.size(), 101U);
+  ASSERT_GE(found.stations.size(), 101U);
   EXPECT_EQ(found.stations.front().s_mm, 0);
   EXPECT_EQ(found.stations.front().X_BS.position_B_mm.norm(), 0);
   EXPECT_NEAR(found.stations.back().s_mm, 40, 1e-12);
@@ -422,7 +407,7 @@ TEST(FemBeam, ALoadThatCannotBeCarriedEndsInAStatus) {
 
   Options impatient = bare();
   impatient.max_load_steps = 3;
-  expect_no_shape(fem_reference::solve(coarse, impatient), scene::Status::not_converged, "load factor");
+  expect_no_shape(fem_reference::solve(coarse, impatient), scene::Status::work_limit, "load factor");
 }
 
 TEST(FemBeam, OptionsOutOfRangeAreRefused) {

@@ -40,8 +40,7 @@ Sample sample(int order, bool full_integration, unsigned seed) {
   s.data.moment_stiffness = Vector3d(0.7, 1.0, 1.4);
   s.data.force_compliance = Vector3d(0.1, 0.3, 0.2);
   s.data.rest_curvature = random.vector();
-  s.data.tendon_force_S = random.vector();
-  s.data.tendon_moment_S = random.vector();
+  for (const double tension : {0.6, 1.3}) s.data.tendons.push_back({0.2 * random.vector(), tension});
   s.data.follower_force_S = random.vector();
   s.data.fixed_force_B = random.vector();
   const Quaternion mean = exponential(3 * random.vector());
@@ -96,7 +95,8 @@ TEST(FemElement, TangentIsTheDerivativeOfTheResidual) {
 TEST(FemElement, NodalLoadTangentIsTheDerivativeOfItsResidual) {
   Random random(7);
   const double step = 1e-5;
-  const NodalLoad load{0, {random.vector(), random.vector()}, {random.vector(), random.vector()}};
+  NodalLoad load{0, {random.vector(), random.vector()}, {random.vector(), random.vector()}};
+  for (int i = 0; i < 2; ++i) load.fixed_force_arms_BS += random.vector() * random.vector().transpose();
   const Quaternion q = exponential(4 * random.vector());
   const NodalSystem system = nodal_system(load, q, 0.7);
   EXPECT_EQ(system.tangent.leftCols<3>().cwiseAbs().maxCoeff(), 0);
