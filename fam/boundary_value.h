@@ -39,7 +39,7 @@ constexpr double largest_strain = 0.1;
 constexpr double segment_growth = 1.6;
 constexpr double largest_turn_rad = 0.5;
 constexpr double largest_surprise_rad = 0.05;
-constexpr double smallest_load_step = 1e-8;
+constexpr double smallest_load_step = 1e-12;  // over the load reached: a column pushed aside by 1e-12 EI/L^2 needs it
 constexpr double smallest_bifurcation_step = 1e-5;
 constexpr int max_newton_steps = 20;
 // Growing the load ends in load_step_too_small after this many arcs marched, or growth_passes times the rod's arcs.
@@ -174,7 +174,7 @@ class BasicBoundaryValue {
   std::vector<State<double>> nodes_;  // at the distal end of each segment
   BandSystem<turns + unknowns - 1, 2 * unknowns - turns - 1> system_;
   std::vector<State<double>> previous_;  // the same at the last load but one
-  double factor_ = 0, previous_factor_ = 0;
+  double factor_ = 0, previous_factor_ = 0, first_step_ = 1;
 
   Eigen::Matrix<double, turns, turns> slope_;   // of one segment
   std::unique_ptr<BasicBoundaryValue> coarse_;  // a quarter of the arcs, where the full load is solved for at once

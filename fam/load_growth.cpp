@@ -88,13 +88,14 @@ bool BasicBoundaryValue<D>::gives_up(double step) {
   const long long marched = static_cast<long long>(newton_steps_) * arc_count();
   const bool exhausted =
       marched > std::max<long long>(most_arcs_marched, static_cast<long long>(growth_passes) * arc_count());
-  if (!exhausted && step >= smallest_load_step) return false;
+  const double smallest = smallest_load_step * std::max(factor_, first_step_);
+  if (!exhausted && step >= smallest) return false;
   failure_ = tendon_collapsed_ ? scene::Status::tendon_collapsed
              : exhausted       ? scene::Status::work_limit
                                : scene::Status::load_step_too_small;
   std::ostringstream text;
   if (exhausted) text << "work limit: " << marched << " arcs marched and only ";
-  else text << "the load step fell below " << smallest_load_step << " at ";
+  else text << "the load step fell below " << smallest << " at ";
   text << 100 * factor_ << " % of the load" << (exhausted ? " reached" : "");
   message_ = text.str();
   return true;
@@ -117,7 +118,8 @@ bool BasicBoundaryValue<D>::grow_load() {
                     orientation(false),
                     {}};
   watch.before = watch.last;
-  double step = 1 / std::max(1.0, total_growth_ * total_growth_ + total_turn_rad_);
+  first_step_ = 1 / std::max(1.0, total_growth_ * total_growth_ + total_turn_rad_);
+  double step = first_step_;
   while (factor_ < 1) {
     step = std::min(step, longest_step(watch));
     if (gives_up(step)) return false;

@@ -69,6 +69,19 @@ std::optional<PlanarScene> in_one_plane(std::span<const Span> spans) {
   return scene;
 }
 
+std::optional<RoundRod> without_torsion(std::span<const Span> spans) {
+  if (!scene::is_round(spans)) return std::nullopt;
+  RoundRod rod;
+  for (const Span& span : spans) {
+    rod.spans.push_back(span);
+    double& torsion_Nmm2 = rod.spans.back().stiffness.torsion_Nmm2;
+    const double bending_Nmm2 = span.stiffness.bending_Nmm2[0];
+    rod.twist_per_Nmm2.push_back(1 / torsion_Nmm2 - 1 / bending_Nmm2);
+    torsion_Nmm2 = bending_Nmm2;
+  }
+  return rod;
+}
+
 RodChoice choose_rod(std::span<const Span> spans, RodModel wanted, double tolerance_mm) {
   if (wanted != RodModel::automatic) return {wanted, 0, "rod model as asked for"};
   const bool gives_way = std::any_of(spans.begin(), spans.end(),

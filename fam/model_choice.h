@@ -20,6 +20,15 @@ struct PlanarScene {
 };
 std::optional<PlanarScene> in_one_plane(std::span<const scene::Span> spans);
 
+// A rod to which GJ does not matter (scene::is_round), with EI in its place: its moments then turn with nothing, so
+// that fewer arcs do and a soft torsion costs none. What the section's frame turns more about the tangent, per length
+// and moment, is twist_per_Nmm2 (of each span), 1/GJ - 1/EI.
+struct RoundRod {
+  std::vector<scene::Span> spans;
+  std::vector<double> twist_per_Nmm2;
+};
+std::optional<RoundRod> without_torsion(std::span<const scene::Span> spans);
+
 // Which rod: `wanted` if it is not automatic. The Kirchhoff rod is chosen where the sections neither shear nor stretch,
 // or where both together move the tip by less than a tenth of the tolerance; left_out_mm bounds what was left out.
 struct RodChoice {

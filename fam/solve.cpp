@@ -55,13 +55,15 @@ struct Choice {
   Law law;
   RodChoice rod;
   std::optional<PlanarScene> plane;
+  std::optional<RoundRod> round;  // of rods in space
   std::string reason;
 };
 
 Choice choose(const std::vector<Span>& spans, const Options& options, double tolerance_mm) {
-  Choice choice{options.law, {}, {}, {}};
+  Choice choice{options.law, {}, {}, {}, {}};
   if (choice.law == Law::automatic) choice.law = Law::sixth_order;
   if (choice.law != Law::published) choice.plane = in_one_plane(spans);
+  if (choice.law != Law::published && !choice.plane) choice.round = without_torsion(spans);
   const bool published_rod = options.model == RodModel::automatic && choice.law == Law::published;
   choice.rod =
       choose_rod(spans, published_rod ? RodModel::kirchhoff : options.model, options.arcs == 0 ? tolerance_mm : 0);
@@ -88,6 +90,7 @@ Prepared prepared_in(const std::vector<Span>& spans, const std::vector<int>& arc
 
 Prepared prepared(const std::vector<Span>& spans, const std::vector<int>& arcs, const Choice& choice,
                   const Options& options) {
+  if (choice.round) return prepared_in<3>(choice.round->spans, arcs, choice, options);
   if (!choice.plane) return prepared_in<3>(spans, arcs, choice, options);
   Prepared result = prepared_in<2>(choice.plane->spans, arcs, choice, options);
   result.rotation_BP = choice.plane->rotation_BP;
@@ -223,7 +226,8 @@ Equilibrium too_long_for_series(double growth, double reach_rad) {
 // What a solve was asked for and how.
 struct Task {
   const scene::Scene& scene;
-  const std::vector<Span>& spans;
+  const std::vector<Span>& scene_spans;
+  const std::vector<Span>& spans;  // as they are solved
   const Options& options;
   Choice choice;
   double tolerance_mm;
@@ -262,6 +266,21 @@ void report(const BasicMarch<D>&, const Task& task, const Run&, Equilibrium& res
   if (scene::is_conservative(task.spans)) result.stable = true;
 }
 
+// Turns each section about its tangent by what GJ adds to the rod that was solved: the moment about the tangent is
+// constant along a span.
+void twist_sections(Equilibrium& result, const std::vector<Span>& spans, const RoundRod& rod) {
+  double twist_rad = 0;
+  std::size_t i = 0;
+  for (std::size_t k = 1; k < result.stations.size(); ++k) {
+    scene::Station& station = result.stations[k];
+    const double last_mm = result.stations[k - 1].s_mm;
+    if (last_mm >= spans[i].end_mm) ++i;
+    const double moment_Nmm = station.moment_B_Nmm.dot(station.X_BS.rotation_BS.col(0));
+    twist_rad += rod.twist_per_Nmm2[i] * moment_Nmm * (station.s_mm - last_mm);
+    station.X_BS.rotation_BS *= Eigen::AngleAxisd(twist_rad, Vector3d::UnitX()).toRotationMatrix();
+  }
+}
+
 Equilibrium success(const Task& task, const Run& run, double error_mm, const std::string& reason) {
   Equilibrium result;
   result.status = Status::converged;
@@ -272,7 +291,7 @@ Equilibrium success(const Task& task, const Run& run, double error_mm, const std
   });
   result.model = {{"law", std::string(name(task.choice.law))},
                   {"arcs", run.arc_count()},
-                  {"planar", scene::plane_direction(task.spans).has_value()},
+                  {"planar", scene::plane_direction(task.scene_spans).has_value()},
                   {"torsion", torsion},
                   {"shear", task.choice.rod.model == RodModel::reissner},
                   {"solver", std::string(run.marched() ? "march" : "boundary value")},
@@ -281,11 +300,12 @@ Equilibrium success(const Task& task, const Run& run, double error_mm, const std
   std::visit(
       [&](const auto& solver) {
         set_shape(result, task.scene, task.spans, solver.solved(), run.prepared.rotation_BP);
+        if (task.choice.round && result.converged()) twist_sections(result, task.scene_spans, *task.choice.round);
         if (result.converged()) report(solver, task, run, result);
       },
       run.prepared.solver);
   result.tip_angle_rad =
-      result.converged() ? scene::tip_angle_rad(result.stations, scene::plane_normal(task.spans)) : 0;
+      result.converged() ? scene::tip_angle_rad(result.stations, scene::plane_normal(task.scene_spans)) : 0;
   return result;
 }
 
@@ -450,7 +470,8 @@ Equilibrium solve(const scene::Scene& scene, const Options& options) {
     return result;
   }
   const double tolerance_mm = options.tolerance_mm > 0 ? options.tolerance_mm : 1e-3 * spans.back().end_mm;
-  const Task task{scene, spans, options, choose(spans, options, tolerance_mm), tolerance_mm};
+  const Choice choice = choose(spans, options, tolerance_mm);
+  const Task task{scene, spans, choice.round ? choice.round->spans : spans, options, choice, tolerance_mm};
   return options.arcs > 0 ? solve_fixed(task) : solve_to_tolerance(task);
 }
 

@@ -119,6 +119,17 @@ bool is_isotropic(std::span<const Span> spans) {
   });
 }
 
+bool is_round(std::span<const Span> spans) {
+  const auto along = [](const Eigen::Vector3d& v) { return v[1] == 0 && v[2] == 0; };
+  return is_isotropic(spans) && std::all_of(spans.begin(), spans.end(), [&](const Span& span) {
+           const bool centred = std::all_of(span.tendons.begin(), span.tendons.end(),
+                                            [](const SectionTendon& tendon) { return tendon.arm_S_mm.isZero(0); });
+           return centred && span.rest_curvature_per_mm.isZero(0) && span.fixed_force_arms_BS_Nmm.isZero(0) &&
+                  along(span.follower_load_S.force_N) && along(span.follower_load_S.moment_Nmm) &&
+                  along(span.follower_force_S_N_per_mm);
+         });
+}
+
 std::optional<Eigen::Vector2d> plane_direction(std::span<const Span> spans) {
   DirectionFinder finder;
   for (const Span& span : spans) {

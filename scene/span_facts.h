@@ -22,6 +22,11 @@ std::optional<Eigen::Vector3d> plane_normal(std::span<const Span> spans);
 // All sections are the same about y and z.
 bool is_isotropic(std::span<const Span> spans);
 
+// Nothing tells one direction in a section from another: sections the same about y and z and without rest curvature,
+// and neither tendons, lever arms nor transversal follower loads. The centreline then does not depend on GJ: the moment
+// about the tangent is constant between point moments, and only turns the section about it.
+bool is_round(std::span<const Span> spans);
+
 // What leaves the scene as it is: half a turn about the axis (nothing but tension, torque and twist along it), or else
 // the mirror of a plane that all bending lies in. A rod can stay on an unstable branch only as far as its symmetry
 // holds it there: on the axis, or in the plane as long as it would leave it sideways.

@@ -48,6 +48,27 @@ ShapeDifference shape_difference(const scene::Equilibrium& a, const scene::Equil
   return difference;
 }
 
+double largest_distance_mm(const scene::Equilibrium& a, const scene::Equilibrium& b) {
+  const double hair_mm = 1e-9 * a.stations.back().s_mm;
+  double largest = 0;
+  auto other = b.stations.begin();
+  for (const scene::Station& station : a.stations) {
+    while (other != b.stations.end() && other->s_mm < station.s_mm - hair_mm) ++other;
+    if (other == b.stations.end()) break;
+    if (other->s_mm > station.s_mm + hair_mm) continue;
+    largest = std::max(largest, (station.X_BS.position_B_mm - other->X_BS.position_B_mm).norm());
+  }
+  return largest;
+}
+
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  const double place = share * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
 Statistics statistics(const std::vector<double>& differences) {
   std::vector<double> absolute;
   double squares = 0;

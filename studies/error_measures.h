@@ -19,6 +19,13 @@ struct ShapeDifference {
 };
 ShapeDifference shape_difference(const scene::Equilibrium& a, const scene::Equilibrium& b, int samples = 40);
 
+// Largest distance of two centrelines at the stations that both have (s = k L/40 and span ends at least).
+double largest_distance_mm(const scene::Equilibrium& a, const scene::Equilibrium& b);
+
+// The value below which this share of the values lies, between neighbours in proportion; the mean of the two middle
+// ones for the median of an even number.
+double quantile(std::vector<double> values, double share);
+
 // Statistics of differences e_1..e_n along one axis.
 struct Statistics {
   double mean = 0;                // sum e / n

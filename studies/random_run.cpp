@@ -4,7 +4,7 @@
 //   random_scenes run FROM TO FOLDER    FROM and TO multiples of the block; every 100th scene by finite elements too
 //   random_scenes second FOLDER         a second opinion on every scene in which FAM is wrong and silent
 //   random_scenes sum FOLDER OUTPUT     counts.csv, failures.csv and README.md from the blocks
-//   random_scenes promise TO OUTPUT     seeds 0..TO-1: is the tolerance kept (promise.h)?
+//   random_scenes promise N OUTPUT      N scenes: is the tolerance kept (promise.h)?
 //   random_scenes check FOLDER LIST     fails on a listed outcome (random_study.h) of a seed that LIST does not hold
 #include "scene/scene_file.h"
 #include "studies/output_file.h"
@@ -15,12 +15,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <set>
+#include <thread>
 
 #include <fcntl.h>
 #include <sys/time.h>
@@ -129,6 +131,23 @@ std::set<std::uint64_t> listed_seeds(const fs::path& path) {
   return seeds;
 }
 
+// By two threads, each taking the next scene.
+std::vector<studies::Promise> all_promises(std::uint64_t scenes) {
+  std::vector<studies::Promise> promises(scenes);
+  std::atomic<std::uint64_t> next = 0;
+  const auto work = [&] {
+    for (std::uint64_t i = next++; i < scenes; i = next++) {
+      const bool count_needed = i / 10 % 4 == 0;  // a quarter of the scenes, all kinds and tolerances
+      promises[i] = studies::promise_of(studies::promise_seed(i), count_needed);
+      if (i % 1000 == 999) fmt::print(stderr, "promise: {} of {}\n", i + 1, scenes);
+    }
+  };
+  std::thread other(work);
+  work();
+  other.join();
+  return promises;
+}
+
 int check(const fs::path& folder, const fs::path& list) {
   const std::set<std::uint64_t> known = listed_seeds(list);
   int unknown = 0;
@@ -159,19 +178,14 @@ int main(int argc, char** argv) {
       studies::write_file(fs::path(arguments[2]) / name, text);
     }
   } else if (command == "promise" && arguments.size() == 3) {
-    std::vector<studies::Promise> promises;
-    for (std::uint64_t seed = 0; seed < std::stoull(arguments[1]); ++seed) {
-      const bool count_needed = seed / 8 % 4 == 0;  // a quarter of the scenes, all tolerances
-      if (const auto promise = studies::promise_of(seed, count_needed)) promises.push_back(*promise);
-    }
-    for (const auto& [name, text] : studies::promise_files(promises)) {
+    for (const auto& [name, text] : studies::promise_files(all_promises(std::stoull(arguments[1])))) {
       studies::write_file(fs::path(arguments[2]) / name, text);
     }
   } else if (command == "check" && arguments.size() == 3) {
     return check(arguments[1], arguments[2]);
   } else {
     fmt::print(stderr,
-               "random_scenes scene SEED | run FROM TO FOLDER | second FOLDER | sum FOLDER OUTPUT | promise TO OUTPUT "
+               "random_scenes scene SEED | run FROM TO FOLDER | second FOLDER | sum FOLDER OUTPUT | promise N OUTPUT "
                "| check FOLDER LIST\n");
     return 2;
   }

@@ -225,10 +225,7 @@ scene::Equilibrium solve_fem(const scene::Scene& scene, int order, int elements)
   options.order = order;
   options.elements = elements;
   options.max_load_steps = most_load_steps;
-  scene::Equilibrium answer = fem_reference::solve(scene, options);
-  const bool too_coarse = answer.message.find("too coarse") != std::string::npos;
-  if (answer.status == scene::Status::not_converged && !too_coarse) answer.message = "work limit: " + answer.message;
-  return answer;
+  return fem_reference::solve(scene, options);
 }
 
 }  // namespace

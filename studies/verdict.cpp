@@ -13,7 +13,7 @@ double distance(const scene::Equilibrium& a, const scene::Equilibrium& b, double
 
 Verdict verdict_on_failure(const scene::Equilibrium& answer) {
   if (answer.status == scene::Status::unsupported) return Verdict::unsupported;
-  return answer.message.find("work limit") == std::string::npos ? Verdict::not_converged : Verdict::work_limit;
+  return answer.status == scene::Status::work_limit ? Verdict::work_limit : Verdict::not_converged;
 }
 
 bool on_another_branch(const scene::Equilibrium& answer, const scene::Equilibrium& truth, double error,
