@@ -1,5 +1,5 @@
-// Cables, columns far beyond Euler's load, soft torsion, coils: against the elastica in closed form and the limit of the
-// half-infinite elastica. And whether the error estimate is what it says.
+// Cables, columns far beyond Euler's load, soft torsion, coils: against the elastica in closed form and the limit of
+// the half-infinite elastica. And whether the error estimate is what it says.
 #include "exact_reference/elastica.h"
 #include "exact_scenes.h"
 
@@ -37,9 +37,7 @@ double distance_under_force_mm(const scene::Scene& rod, const Vector3d& force_N,
 
 class Clock {
  public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -89,8 +87,8 @@ TEST(ExactExtreme, HeavyCables) {
       const double e = 1 / std::sqrt(weight);
       const auto difference = [&](const scene::Scene& rod) { return (tip_mm(solve(rod)) - wanted.tip_mm).norm(); };
       const scene::Scene rod = with(uniform_rod(1, 1, 0.7), scene::DistributedForce{0, 1, Frame::fixed, force});
-      EXPECT_LT(difference(rod), 2 * e * e) << weight << " " << down.transpose();
-      EXPECT_GT(difference(stiffer(rod)), 2 * e * e);
+      EXPECT_LT(difference(rod), 3 * e * e) << weight << " " << down.transpose();
+      EXPECT_GT(difference(stiffer(rod)), 3 * e * e);
       const scene::Equilibrium result = solve(rod);
       EXPECT_NEAR(result.base().moment_B_Nmm.norm(), wanted.base_moment_Nmm, 3);
       EXPECT_EQ(result.stable, true);
@@ -169,7 +167,8 @@ TEST(ExactExtreme, CoilsInSpaceBalance) {
 }
 
 TEST(ExactExtreme, WorkLimitIsAStatus) {  // a thin strip twisted by a hundred thousand turns
-  const scene::Scene rod = tip_moment(tip_force(uniform_rod(1, 1, 1e-6), Frame::fixed, {0, 1, 1}), Frame::fixed, {1, 0.1, 0});
+  const scene::Scene rod =
+      tip_moment(tip_force(uniform_rod(1, 1, 1e-6), Frame::fixed, {0, 1, 1}), Frame::fixed, {1, 0.1, 0});
   const scene::Equilibrium result = solve(rod);
   EXPECT_EQ(result.status, scene::Status::work_limit) << result.message;
   EXPECT_TRUE(result.stations.empty());

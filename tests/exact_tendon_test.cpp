@@ -1,5 +1,5 @@
-// Tendons along their own tangent and forces off the centreline: independent shooting (tests/data/14, 15), closed forms,
-// the balance of the returned shape, derivatives by differences.
+// Tendons along their own tangent and forces off the centreline: independent shooting (tests/data/14, 15), closed
+// forms, the balance of the returned shape, derivatives by differences.
 #include "exact_reference/rod_equations.h"
 #include "exact_scenes.h"
 #include "scene/scene_file.h"
@@ -13,10 +13,10 @@
 #include <random>
 
 using namespace exact_test;
+using Eigen::Matrix3d;
 using exact_reference::RodEquations;
 using exact_reference::State;
 using exact_reference::Way;
-using Eigen::Matrix3d;
 
 namespace {
 
@@ -72,8 +72,8 @@ exact_reference::ScaledSpan span_with_everything() {
   span.fixed_density_B = {0.1, 0.2, 0.3};
   span.follower_load_S = {{0.2, -0.3, 0.1}, {0.3, 0.1, 0.2}};
   span.fixed_load_B = {{0.1, 0.3, -0.2}, {0.1, -0.1, 0.2}};
-  span.fixed_force_arms_BS =
-      Vector3d(0.5, -0.8, 0.3) * Vector3d(0, 0.2, -0.1).transpose() + Vector3d(0.1, 1, 0) * Vector3d(0, 0, 0.3).transpose();
+  span.fixed_force_arms_BS = Vector3d(0.5, -0.8, 0.3) * Vector3d(0, 0.2, -0.1).transpose() +
+                             Vector3d(0.1, 1, 0) * Vector3d(0, 0, 0.3).transpose();
   span.tendons = {{{0, 0.1, 0}, 6}, {{0, -0.05, 0.08}, 3}, {{0, 0, 0}, 2}};
   return span;
 }
@@ -370,7 +370,7 @@ TEST(ExactReference, ReturnedShapesBalance) {  // at every station without distr
     ASSERT_EQ(result.stations.size(), 41u);
     const bool distributed = std::holds_alternative<scene::DistributedForce>(rod.loads.back());
     const double limit = distributed ? 2e-5 : 1e-10;  // of Boole's rule across the loads inside; N
-    scene::Scene twin = rod;  // loads 5 % larger than those that were solved
+    scene::Scene twin = rod;                          // loads 5 % larger than those that were solved
     std::get<scene::Force>(twin.loads[0]).value_N *= 1.05;
     for (std::size_t k = 0; k < 40; k += distributed ? 4 : 1) {
       const Imbalance left = imbalance(rod, result, k), wrong = imbalance(twin, result, k);
