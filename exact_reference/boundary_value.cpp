@@ -43,7 +43,7 @@ struct Path {
   std::size_t fewest_intervals = shooting.mesh().size();
   double work = 0;
   bool tendon_collapsed = false;  // in the last iteration
-  bool watch_stability = false;  // conservative, and stable so far
+  bool watch_stability = false;   // conservative, and stable so far
   scene::Symmetry symmetry = scene::Symmetry::none;
   double load_size = 0;          // of ScaledRod
   Determinant determinant = {};  // of the equations' derivatives at y
@@ -125,7 +125,8 @@ bool adapt(Path& path, const Tolerances& tolerances) {
   constexpr int most_rounds = 20;
   for (int round = 0; round < most_rounds; ++round) {
     path.shooting.integrate_positions(path.y, path.load);
-    if (!path.shooting.refine(path.y, path.load, tolerances.local_error, tolerances.volume_change, max_intervals)) return true;
+    if (!path.shooting.refine(path.y, path.load, tolerances.local_error, tolerances.volume_change, max_intervals))
+      return true;
     const Convergence newton = path.newton(path.y, path.load, tolerances.newton, 12);
     if (!newton.converged) return false;
   }

@@ -4,12 +4,14 @@
 // The load grows from nothing with a tangent predictor. A step is taken back and halved when Newton's iteration fails,
 // when it moves a section by more than 0.1 rad from the prediction, or when the step turns a section by more than
 // 0.8 rad; so the answer does not jump to another equilibrium. At a fold (the rod snaps) the step shrinks to nothing:
-// status load_step_too_small. not_converged: a load that takes more than 3000 steps or seconds of work, or a rest shape
-// that turns by more than 1e4 rad. Exactly symmetric scenes stay symmetric: a straight rod under pure compression stays
-// straight beyond the Euler load, with stable = false.
+// status load_step_too_small. work_limit: a load that takes more than 3000 steps or seconds of work. tendon_collapsed:
+// the load cannot grow because a tendon's path has no length somewhere. not_converged: a rest shape that turns by more
+// than 1e4 rad, or a fine mesh that does not settle. Exactly symmetric scenes stay symmetric: a straight rod under pure
+// compression stays straight beyond the Euler load, with stable = false.
 //
-// The mesh is refined where a step and two half steps differ, then halved as a whole; the difference of the two tips is
-// the error estimate. Measured accuracy: solve.h.
+// The mesh is refined where a step and two half steps differ and where what grows or decays along an interval is not
+// resolved (Shooting::volume_changes), which a taut straight rod does not show in its shape; then it is halved as a
+// whole. The largest difference of a node's two positions is the error estimate. Measured accuracy: solve.h.
 #pragma once
 
 #include "exact_reference/scaled_rod.h"
@@ -17,7 +19,7 @@
 
 namespace exact_reference {
 
-// tolerance: of the tip, over L.
+// tolerance: of any position, over L.
 scene::Equilibrium solve_boundary_value(const ScaledRod& rod, double tolerance);
 
 }  // namespace exact_reference

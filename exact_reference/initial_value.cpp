@@ -146,7 +146,7 @@ March march(const ScaledRod& rod, const std::vector<double>& places, double tole
       result.states[k] = integrator.state();
     }
     result.steps += integrator.steps();
-    const bool invariant = span->follower_density_S.isZero(0) ;
+    const bool invariant = span->follower_density_S.isZero(0);
     if (invariant) result.invariant_drift = std::max(result.invariant_drift, drift(start, integrator.state()));
   }
   result.finished = true;
@@ -206,8 +206,7 @@ double difference(const std::vector<PlacedState>& rough, const std::vector<Place
   for (std::size_t k = 0; k < fine.size(); ++k) {
     distance = std::max(distance, (rough[k].state.tail<3>() - fine[k].state.tail<3>()).norm());
   }
-  return distance +
-         (rotation_of(rough.back().state.head<4>()) - rotation_of(fine.back().state.head<4>())).norm();
+  return distance + (rotation_of(rough.back().state.head<4>()) - rotation_of(fine.back().state.head<4>())).norm();
 }
 
 scene::Equilibrium stopped(bool tendon_collapsed) {

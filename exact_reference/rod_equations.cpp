@@ -174,8 +174,8 @@ CoreMatrix RodEquations::beyond_point_loads_jacobian(const State& y) const {
   J.block<3, 4>(7, 0) = -rotated_by_quaternion(y.head<4>(), follower_load_.moment_Nmm, 1);
   for (int axis = 1; axis < 3; ++axis) {  // the moment is sum (R e_axis) x arms.col(axis)
     if (fixed_force_arms_.col(axis).isZero(0)) continue;
-    J.block<3, 4>(7, 0) += cross_matrix(fixed_force_arms_.col(axis)) *
-                           rotated_by_quaternion(y.head<4>(), Vector3d::Unit(axis), 1);
+    J.block<3, 4>(7, 0) +=
+        cross_matrix(fixed_force_arms_.col(axis)) * rotated_by_quaternion(y.head<4>(), Vector3d::Unit(axis), 1);
   }
   return J;
 }

@@ -55,7 +55,7 @@ struct ScaledRod {
   // Sum of all forces and moments, the tendons' bending included, times the largest compliance: below 1 nothing
   // buckles.
   double load_size() const;
-  bool has_fixed_load() const;       // any load with components in the base frame, gravity included
+  bool has_fixed_load() const;  // any load with components in the base frame, gravity included
   bool has_tendon() const;
   bool has_fixed_moment() const;     // not conservative in space
   bool has_follower_load() const;    // not conservative

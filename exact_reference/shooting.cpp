@@ -234,7 +234,8 @@ bool Shooting::refine(NodeStates& y, double load_factor, double tolerance, doubl
   for (std::size_t i = 0; i < mesh_.size(); ++i) {
     const double error = local_error(y, load_factor, weight, i);
     double wanted = parts_for(error / tolerance);
-    if (volume_changes_.size() == mesh_.size()) wanted = std::max(wanted, parts_for(volume_changes_[i] / most_volume_change));
+    if (volume_changes_.size() == mesh_.size())
+      wanted = std::max(wanted, parts_for(volume_changes_[i] / most_volume_change));
     parts[i] = wanted <= 1 ? 1 : static_cast<int>(std::ceil(std::clamp(wanted, 2.0, most_parts)));
     total += parts[i];
   }

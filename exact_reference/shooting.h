@@ -50,16 +50,17 @@ class Shooting {
   NodeStates unloaded() const;
 
   // Newton's iteration without damping. Converged when an update is <= tolerance, or no longer falling (round-off) and
-  // <= 1e-9, from the fifth on <= 1e-6 (a motion that next to nothing resists). Given up when not finite, when two updates grow in turn, or after max_iterations.
+  // <= 1e-9, from the fifth on <= 1e-6 (a motion that next to nothing resists). Given up when not finite, when two
+  // updates grow in turn, or after max_iterations.
   Convergence newton(NodeStates& y, double load_factor, double tolerance, int max_iterations);
 
   // d(states)/d(load_factor) at a solution; zero if the matrix is singular there.
   std::vector<Core> tangent(const NodeStates& y, double load_factor);
 
   // Splits the intervals whose step disagrees with two half steps by more than the tolerance (components as in
-  // Convergence, position over L), or whose sensitivity's volume changes by more than that. Returns whether any was split; more than max_intervals: no split, false.
-  bool refine(NodeStates& y, double load_factor, double tolerance, double most_volume_change,
-              int max_intervals);
+  // Convergence, position over L), or whose sensitivity's volume changes by more than that. Returns whether any was
+  // split; more than max_intervals: no split, false.
+  bool refine(NodeStates& y, double load_factor, double tolerance, double most_volume_change, int max_intervals);
   void halve(NodeStates& y, double load_factor);
 
   // Of the equations' derivatives, as they act on motions in the plane of the rod's symmetry if there is one. It does
@@ -75,8 +76,8 @@ class Shooting {
 
   const Mesh& mesh() const { return mesh_; }
 
-  // |det - 1| of each interval's sensitivity in Newton's last iteration, if the mesh is still that one. The exact one is
-  // 1 (the equations' Jacobian has no trace): what grows along the interval and what decays, both must be resolved,
+  // |det - 1| of each interval's sensitivity in Newton's last iteration, if the mesh is still that one. The exact one
+  // is 1 (the equations' Jacobian has no trace): what grows along the interval and what decays, both must be resolved,
   // though a straight taut rod or a rod with next to no torsional stiffness shows nothing of it in its shape.
   const std::vector<double>& volume_changes() const { return volume_changes_; }
 

@@ -15,7 +15,8 @@ enum class Way {
 
 struct Options {
   RodModel model = RodModel::reissner;
-  double tolerance = 1e-12;  // of the tip, over L, 1e-13 to 1e-3; round-off may be larger, error_estimate_mm says so
+  double tolerance =
+      1e-12;  // of any position, over L, 1e-13 to 1e-3; round-off may be larger, error_estimate_mm says so
   Way way = Way::automatic;
 };
 
@@ -25,7 +26,8 @@ struct Options {
 // (stability.h); empty under follower loads and fixed moments, which are not conservative in space, and where it is
 // neutral.
 //
-// Statuses: load_step_too_small, not_converged (boundary_value.h, initial_value.h), unsupported.
+// Statuses: load_step_too_small, work_limit, tendon_collapsed, not_converged (boundary_value.h, initial_value.h),
+// unsupported.
 // Throws scene::SceneError if an option is out of its range. The scene must be valid.
 scene::Equilibrium solve(const scene::Scene& scene, const Options& options = {});
 

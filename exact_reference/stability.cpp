@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include <cmath>
 #include <numeric>
 
 namespace exact_reference {
@@ -50,7 +51,7 @@ std::optional<int> falling_directions(const Shooting& shooting, const NodeStates
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix3d> eigen(pivot, form.end_end, Eigen::EigenvaluesOnly);
     const Eigen::Vector3d& values = eigen.eigenvalues();
     const Eigen::Vector3d own = form.end_end.selfadjointView<Eigen::Lower>().eigenvalues();
-    const double neutral = unresolved + intervals * epsilon * own[2] / own[0];
+    const double neutral = unresolved + 16 * intervals * epsilon * std::abs(own[1] / own[0]);
     if (!values.allFinite() || !(values.cwiseAbs().minCoeff() >= neutral)) return std::nullopt;
     count += static_cast<int>((values.array() < 0).count());
     beyond = form.start_start - symmetric_part(form.start_end * pivot.inverse() * form.start_end.transpose());

@@ -8,14 +8,14 @@
 namespace exact_reference {
 
 // Number of independent directions in which the potential energy falls (Morse index); 0: stable.
-// Empty where an equilibrium is neutral within round-off.
+// Empty where an equilibrium is neutral within round-off or within what the mesh resolves.
 //
 // With fixed forces alone N(s) is given, v is minimised out at each section, and the second variation acts on rotations
 // only. Each mesh interval's share, a 6x6 form of its two end rotations, follows exactly from the variational
 // equations; the rod's form is block tridiagonal, and its negative eigenvalues are counted while eliminating from tip
 // to clamp; where fixed forces act off the centreline, the form of their lever arms is added. Their number is that of
-// the conjugate points in (0, L]. Intervals must be short enough to hold none themselves. Only for scenes without follower loads and fixed moments; `y` must be an equilibrium of `shooting`'s
-// mesh under `load` times the loads.
+// the conjugate points in (0, L]. Intervals must be short enough to hold none themselves. Only for scenes without
+// follower loads and fixed moments; `y` must be an equilibrium of `shooting`'s mesh under `load` times the loads.
 std::optional<int> falling_directions(const Shooting& shooting, const NodeStates& y, double load = 1);
 
 }  // namespace exact_reference

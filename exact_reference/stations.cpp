@@ -146,8 +146,7 @@ void set_shape(scene::Equilibrium& result, const ScaledRod& rod, const std::vect
   for (const auto& [place, y] : states) {
     const RodEquations equations(rod.spans[spans.at(place)], 1);
     const Matrix3d R = rotation_of(y.head<4>().normalized());
-    const scene::Wrench own =
-        equations.own_wrench_S(R.transpose() * y.segment<3>(4), R.transpose() * y.segment<3>(7));
+    const scene::Wrench own = equations.own_wrench_S(R.transpose() * y.segment<3>(4), R.transpose() * y.segment<3>(7));
     result.stations.push_back({place * rod.length_mm,
                                {back * R * back.transpose(), rod.length_mm * (back * y.tail<3>())},
                                rod.force_unit_N * (back * R * own.force_N),

@@ -44,7 +44,8 @@ double TendonStrains::energy(const Vector6d& z, const Vector6d& weighted_wrench,
   const Vector6d strains = rest_ + root_compliance_.cwiseProduct(z);
   double sum = 0.5 * z.squaredNorm() - weighted_wrench.dot(z);
   for (const ScaledTendon& tendon : tendons_) {
-    sum += load_factor_ * tendon.tension * std::sqrt(tendon_tangent_S(strains, tendon.arm_S).squaredNorm() + rounding * rounding);
+    sum += load_factor_ * tendon.tension *
+           std::sqrt(tendon_tangent_S(strains, tendon.arm_S).squaredNorm() + rounding * rounding);
   }
   return sum;
 }

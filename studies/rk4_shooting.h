@@ -9,8 +9,8 @@
 // zero, or from a guess that is handed in. Units inside: the length L of the rod, the least bending or torsional
 // stiffness EI, forces EI/L^2, moments EI/L.
 //
-// Point loads, on and off the centreline, distributed forces and gravity, each in the section or the base frame, several
-// sections. Not tendons.
+// Point loads, on and off the centreline, distributed forces and gravity, each in the section or the base frame,
+// several sections. Not tendons.
 #pragma once
 
 #include "scene/equilibrium.h"
