@@ -42,8 +42,10 @@ constexpr double largest_surprise_rad = 0.05;
 constexpr double smallest_load_step = 1e-12;  // over the load reached: a column pushed aside by 1e-12 EI/L^2 needs it
 constexpr double smallest_bifurcation_step = 1e-5;
 constexpr int max_newton_steps = 20;
-// Growing the load ends in load_step_too_small after this many arcs marched, or growth_passes times the rod's arcs.
-constexpr long long most_arcs_marched = 2'000'000;
+// Growing the load ends in work_limit after this many Newton steps, or arcs marched, or growth_passes times the rod's
+// arcs, if that is more. The random scenes that are solved need up to 900 steps and 250 000 arcs.
+constexpr int most_newton_steps = 3000;
+constexpr long long most_arcs_marched = 600'000;
 constexpr int growth_passes = 100;
 constexpr double load_step_tolerance = 1e-6;  // of Newton on the way to the full load, where the last is tighter
 // Newton ends where the next step is expected below newton_tolerance: rotations in rad, moments in EI/L, forces in

@@ -87,6 +87,7 @@ template <int D>
 bool BasicBoundaryValue<D>::gives_up(double step) {
   const long long marched = static_cast<long long>(newton_steps_) * arc_count();
   const bool exhausted =
+      newton_steps_ > most_newton_steps ||
       marched > std::max<long long>(most_arcs_marched, static_cast<long long>(growth_passes) * arc_count());
   const double smallest = smallest_load_step * std::max(factor_, first_step_);
   if (!exhausted && step >= smallest) return false;
@@ -94,7 +95,7 @@ bool BasicBoundaryValue<D>::gives_up(double step) {
              : exhausted       ? scene::Status::work_limit
                                : scene::Status::load_step_too_small;
   std::ostringstream text;
-  if (exhausted) text << "work limit: " << marched << " arcs marched and only ";
+  if (exhausted) text << "work limit: " << newton_steps_ << " Newton steps and only ";
   else text << "the load step fell below " << smallest << " at ";
   text << 100 * factor_ << " % of the load" << (exhausted ? " reached" : "");
   message_ = text.str();

@@ -5,9 +5,6 @@
 namespace fam {
 namespace {
 
-template <int D>
-constexpr const ArcForces<double, D>* no_forces = nullptr;
-
 // The whole of a published arc as motions for the wrench and the pose at its ends.
 struct ArcMotion {
   RigidMotion before, screw, after;
@@ -66,22 +63,26 @@ template <bool with_shear>
 FAM_FLATTEN void BasicMarch<D>::run_law() {
   const auto with = [&](auto&& law) {
     march([&](const SpanArcs<D>& span, auto& wrench) {
+      const ArcForces<double, D> follower{span.follower_force_S_N, Vector<double, D>::Zero()};
+      const ArcForces<double, D>* forces = span.distributed ? &follower : nullptr;
       with_section<with_shear, double, D>(span.constants, [&](auto& section) {
         for_arcs(span, wrench, distal_wrenches_S_,
-                 [&](std::size_t arc, auto& w) { motions_[arc] = law(section, w, arcs_[arc].screw); });
+                 [&](std::size_t arc, auto& w) { motions_[arc] = law(section, forces, w, arcs_[arc].screw); });
         tendon_collapsed_ = tendon_collapsed_ || section.collapsed();
       });
     });
   };
   if (law_ == Law::midpoint) {
-    with([](auto& section, auto& wrench, auto& screw) { return midpoint_step(section, no_forces<D>, wrench, screw); });
+    with([](auto& section, auto forces, auto& wrench, auto& screw) {
+      return midpoint_step(section, forces, wrench, screw);
+    });
   } else if (law_ == Law::fourth_order) {
-    with([](auto& section, auto& wrench, auto& screw) {
-      return fourth_order_step(section, no_forces<D>, wrench, screw);
+    with([](auto& section, auto forces, auto& wrench, auto& screw) {
+      return fourth_order_step(section, forces, wrench, screw);
     });
   } else {
-    with([](auto& section, auto& wrench, auto& screw) {
-      return sixth_order_step(section, no_forces<D>, wrench, screw);
+    with([](auto& section, auto forces, auto& wrench, auto& screw) {
+      return sixth_order_step(section, forces, wrench, screw);
     });
   }
   place_arcs();

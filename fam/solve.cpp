@@ -73,7 +73,7 @@ Choice choose(const std::vector<Span>& spans, const Options& options, double tol
       (options.law == Law::automatic ? "sixth_order: an arc costs no more than a fourth_order one and fewer do"
                                      : "law as asked for") +
       (scene::all_loads_follow(spans) ? "; march: all loads follow the rod"
-                                      : "; boundary value: a load is fixed in space or distributed");
+                                      : "; boundary value: a load is fixed in space");
   return choice;
 }
 
@@ -346,7 +346,8 @@ Run refined(const Task& task, const std::vector<int>& arcs, const Run& coarse) {
 
 // Whether arcs twice as many cannot help: two runs failed at the same load, or the work is used up.
 bool is_the_end(const Run& last, const Run& run) {
-  if (run.status == Status::work_limit || run.status == Status::tendon_collapsed) return true;
+  if (run.status == Status::tendon_collapsed) return true;
+  if (run.status == Status::work_limit && run.arc_count() > most_arcs_marched / most_newton_steps) return true;
   if (last.status == Status::converged || last.marched()) return false;
   const auto factor = [](const Run& r) {
     return std::visit(
@@ -371,7 +372,7 @@ Equilibrium solve_to_tolerance(const Task& task) {
   double error = std::numeric_limits<double>::infinity();
   double needed = error;  // what must meet the tolerance: the error, and that of follower loads' directions over L
   int next = 2;
-  while (static_cast<double>(next) * count <= max_arcs && coarse->status != Status::work_limit) {
+  while (static_cast<double>(next) * count <= max_arcs) {
     Run fine = refined(task, times(first, next), *coarse);
     const double ratio = static_cast<double>(next) / multiple;
     int after = 2 * next;

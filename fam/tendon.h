@@ -187,20 +187,18 @@ class TendonSection {
     return true;
   }
 
-  // Energy, over which Newton's step must not rise; compliances of zero do not move.
-  double energy(const Eigen::Matrix<double, unknowns, 1>& loads, const Eigen::Matrix<double, unknowns, 1>& x) const {
-    double sum = -loads.dot(x);
+  // The energy's derivative along a direction where the residual is `miss`; compliances of zero do not move.
+  double energy_slope(const Eigen::Matrix<double, unknowns, 1>& miss,
+                      const Eigen::Matrix<double, unknowns, 1>& direction) const {
+    double slope = 0;
     for (int i = 0; i < unknowns; ++i) {
-      const double strain = x[i] - rest_[i];
-      if (compliance_[i] > 0) sum += strain * strain / (2 * compliance_[i]);
+      if (compliance_[i] > 0) slope += miss[i] * direction[i] / compliance_[i];
     }
-    const BasicScrew<double, D> strain = screw<double>(x, rest_translation_mm_);
-    for (const BasicTendon<D>& tendon : tendons_)
-      sum += tendon.tension_N * tangent<double>(strain, tendon.arm_mm).norm();
-    return sum;
+    return slope;
   }
 
-  // Newton's method from the strain with straight tendons, its steps halved until the energy falls.
+  // Newton's method from the strain with straight tendons, its steps halved until the energy, which is convex, is less
+  // steep along them.
   [[gnu::noinline]] Eigen::Matrix<double, unknowns, 1> minimise(const Eigen::Matrix<double, unknowns, 1>& loads) {
     using Unknowns = Eigen::Matrix<double, unknowns, 1>;
     constexpr int max_steps = 60;
@@ -229,10 +227,12 @@ class TendonSection {
       }
       if (!newton.allFinite() || !std::isfinite(size)) break;
       if (size <= 1e-15 || (size < 1e-10 && size >= last / 2)) return x - newton;
+      const double before = energy_slope(miss, newton);
       double part = 1;
-      const double before = energy(loads, x);
-      // Near the minimum the energy is flat to round-off; there whole steps converge.
-      while (part > 1e-6 && size > 1e-6 && !(energy(loads, x - part * newton) <= before)) part /= 2;
+      for (Unknowns there; size > 1e-6 && part > 1e-6; part /= 2) {  // closer to the minimum whole steps converge
+        if (!residual<double>(loads, x - part * newton, there, nullptr)) continue;
+        if (std::abs(energy_slope(there, newton)) <= 0.9 * std::abs(before)) break;
+      }
       x -= part * newton;
       last = size;
     }

@@ -10,8 +10,7 @@ namespace scene {
 
 bool all_loads_follow(std::span<const Span> spans) {
   return std::all_of(spans.begin(), spans.end(), [](const Span& span) {
-    return !span.has_fixed_point_load() && span.fixed_force_B_N_per_mm.isZero(0) &&
-           span.follower_force_S_N_per_mm.isZero(0);
+    return !span.has_fixed_point_load() && span.fixed_force_B_N_per_mm.isZero(0);
   });
 }
 

@@ -8,7 +8,7 @@
 
 namespace scene {
 
-// The march from the tip suffices: all loads are in the section frame and none is distributed.
+// The march from the tip suffices: all loads, distributed ones included, are in the section frame.
 bool all_loads_follow(std::span<const Span> spans);
 
 // The plane through the undeformed axis in which all loads, rest curvatures and tendons lie: the unit vector (y, z)

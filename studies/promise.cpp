@@ -28,16 +28,29 @@ double tip_distance(const scene::Equilibrium& a, const scene::Equilibrium& b, do
   return (a.tip().position_B_mm - b.tip().position_B_mm).norm() / length_mm;
 }
 
-// Of the base, over the size of what the rod carries.
-double wrench_distance(const scene::Equilibrium& answer, const scene::Equilibrium& truth, double length_mm) {
-  double force_N = 0;
-  for (const scene::Station& station : truth.stations) {
-    force_N = std::max(force_N, station.force_B_N.norm() + station.moment_B_Nmm.norm() / length_mm);
+// The sum of all loads' sizes, moments over L.
+double load_size_N(const scene::Scene& scene, double length_mm) {
+  double size = 0;
+  for (const scene::Span& span : scene::spans_of(scene)) {
+    for (const scene::Wrench* load : {&span.follower_load_S, &span.fixed_load_B}) {
+      size += load->force_N.norm() + load->moment_Nmm.norm() / length_mm;
+    }
+    size += span.fixed_force_arms_BS_Nmm.norm() / length_mm;
+    size += span.length_mm() * (span.follower_force_S_N_per_mm.norm() + span.fixed_force_B_N_per_mm.norm());
   }
-  if (force_N == 0) return 0;
+  for (const scene::Load& load : scene.loads) {
+    if (const auto* tendon = std::get_if<scene::Tendon>(&load)) size += tendon->tension_N;
+  }
+  return size;
+}
+
+// Of the base.
+double wrench_distance(const scene::Equilibrium& answer, const scene::Equilibrium& truth, double length_mm,
+                       double load_size_N) {
+  if (load_size_N == 0) return 0;
   const double force = (answer.base().force_B_N - truth.base().force_B_N).norm();
   const double moment = (answer.base().moment_B_Nmm - truth.base().moment_B_Nmm).norm();
-  return std::max(force, moment / length_mm) / force_N;
+  return std::max(force, moment / length_mm) / load_size_N;
 }
 
 // Found by bisection: the error falls with the arcs.
@@ -91,7 +104,7 @@ Promise promise_of(std::uint64_t seed, bool count_needed) {
   promise.estimate = answer.error_estimate_mm / length_mm;
   promise.error = std::max(0.0, shape_distance(answer, truth, length_mm) - judge_error);
   promise.tip_error = std::max(0.0, tip_distance(answer, truth, length_mm) - judge_error);
-  promise.wrench_error = std::max(0.0, wrench_distance(answer, truth, length_mm) - judge_error);
+  promise.wrench_error = std::max(0.0, wrench_distance(answer, truth, length_mm, load_size_N(scene, length_mm)) - judge_error);
   promise.same_branch = promise.error <= std::max(other_branch, 3 * promise.tolerance);
   for (const auto& [key, value] : answer.model) {
     if (key == "arcs") promise.arcs = std::get<int>(value);

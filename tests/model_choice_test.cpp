@@ -126,8 +126,8 @@ TEST(ModelChoice, SlenderRodsRunWithoutShear) {
 }
 
 // The first of the random scenes of results/work_precision/promise, old and new families: whole shape and base wrench
-// within the tolerance in all but one in a thousand of those solved, never beyond three times it, no estimate below half
-// the error, and few arcs too many. The twin, a rod 5 % stiffer, keeps hardly any.
+// within the tolerance in all but one in a thousand of those solved, never beyond three times it, no estimate below
+// half the error, and few arcs too many. The twin, a rod 5 % stiffer, keeps hardly any.
 TEST(ModelChoice, KeepsItsPromise) {
   std::vector<studies::Promise> promises;
   for (std::uint64_t index = 0; index < 400; ++index) {

@@ -53,7 +53,7 @@ Relation mirrored() {
 
 // Lengths by l, forces by f: stiffnesses EI by f l^2, EA by f, moments by f l.
 Scene scaled(Scene scene) {
-  constexpr double l = 1000, f = 7;
+  static constexpr double l = 1000, f = 7;
   for (scene::Section& section : scene.sections) {
     scene::Stiffness k = stiffness_of(section);
     k.bending_Nmm2 *= f * l * l;

@@ -43,8 +43,8 @@ TEST(Span, CutsAtSectionsLoadsAndEndsOnce) {
   EXPECT_TRUE(spans[2].tendons.empty());
 }
 
-// The last section is 7037 units in the last place of its end long, the same-place distance 7036.9 of them: s - distance
-// rounds to the start of the section, and a load at the tip once cut an empty span.
+// The last section is 7037 units in the last place of its end long, the same-place distance 7036.9 of them: s -
+// distance rounds to the start of the section, and a load at the tip once cut an empty span.
 TEST(Span, ALoadAtTheEndOfTheShortestSection) {
   scene::Scene scene = support::uniform_rod(100, slender(1, 1), {});
   scene.sections.push_back(scene.sections[0]);

@@ -1,0 +1,50 @@
+// Relations between scenes, whose answers must map onto each other (relations.h).
+#include "relations.h"
+
+#include "fam/solve.h"
+#include "studies/error_measures.h"
+#include "studies/random_scene.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using scene::Equilibrium;
+using scene::Scene;
+
+Equilibrium solved(const Scene& scene, double tolerance_mm) {
+  fam::Options options;
+  options.tolerance_mm = tolerance_mm;
+  return fam::solve(scene, options);
+}
+
+// The tolerance is kept by all relations on random scenes of all kinds, within twice the tolerance.
+TEST(Answers, RelationsBetweenScenes) {
+  int compared = 0, unanswered = 0;
+  for (std::uint64_t index = 0; index < 1000; ++index) {
+    const std::uint64_t seed = index % 2 == 0 ? index / 2 : studies::first_family_seed + index / 2;
+    const Scene scene = studies::random_scene(seed);
+    const double tolerance_mm = std::pow(10, -2. - static_cast<double>(index % 5)) * scene::length_mm(scene);
+    const Equilibrium one = solved(scene, tolerance_mm);
+    if (!one.converged()) continue;
+    for (const support::Relation& relation : support::relations()) {
+      Equilibrium other = solved(relation.change(scene), tolerance_mm * relation.scale);
+      if (!other.converged()) {
+        ++unanswered;
+        continue;
+      }
+      Equilibrium mapped = one;
+      for (scene::Station& station : mapped.stations) {
+        station.s_mm *= relation.scale;
+        station.X_BS.position_B_mm = relation.map_mm(station.X_BS.position_B_mm);
+      }
+      EXPECT_LE(studies::largest_distance_mm(mapped, other), 2 * tolerance_mm * relation.scale)
+          << relation.name << ", seed " << seed;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 5700);
+  EXPECT_LE(unanswered, 5);
+}
+
+}  // namespace
