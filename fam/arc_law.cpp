@@ -39,11 +39,6 @@ Residual moment_residual(const PlaneLoad& load, double angle) {
           1 - 2 * mean_slope + gram(r0, r1, r2, r0, r1, r2)};
 }
 
-Screw distal_strain(const ArcConstants& constants, const SectionWrench& distal) {
-  if (constants.tendons.empty()) return ElasticSection<false, double, 3>(constants).strain(distal);
-  return TendonSection<false, double, 3>(constants).strain(distal);
-}
-
 }  // namespace
 
 template <int D>
@@ -111,7 +106,7 @@ bool published_arc(const ArcConstants& constants, const SectionWrench& distal, T
   const double h = constants.length_mm;
   const Vector3d& F = distal.force_N;
   // h K^-1 M with the rest curvature and the tendons, in their directions at the distal end, as moments.
-  const Vector3d turn = distal_strain(constants, distal).rotation;
+  const Vector3d turn = strain_under<false>(constants, distal).rotation;
   const double bending_compliance = constants.angular_compliance[1];
 
   // Bending plane on the straight arc: M + h e_x x F without its x component, here times h/EI.

@@ -34,6 +34,8 @@ struct BasicArcConstants {
   Vector<double, D> rest_translation_mm = Vector<double, D>::Zero();  // h e_x
   std::vector<BasicTendon<D>> tendons;
   bool straight_tendons = false;  // along e_x whatever the strain: their moment is in rest_rotation
+
+  bool is_elastic() const { return tendons.empty() || straight_tendons; }
 };
 using ArcConstants = BasicArcConstants<3>;
 
@@ -62,7 +64,6 @@ template <bool with_shear, class T, int D>
 class ElasticSection {
  public:
   static constexpr bool gives_way = with_shear;
-  static constexpr bool is_flat = true;
   explicit ElasticSection(const BasicArcConstants<D>& arc) : arc_(arc) {}
 
   BasicScrew<T, D> strain(const BasicWrench<T, D>& wrench) const {
@@ -106,7 +107,7 @@ BasicWrench<T, D> growth(const ArcForces<T, D>& forces, const BasicMotion<T, D>&
 }
 
 template <class Section, class T, int D>
-BasicMotion<T, D> midpoint_step(Section& section, const ArcForces<T, D>* forces, BasicWrench<T, D>& wrench,
+BasicMotion<T, D> midpoint_step(Section&& section, const ArcForces<T, D>* forces, BasicWrench<T, D>& wrench,
                                 BasicScrew<T, D>& screw) {
   const BasicScrew<T, D> k1 = section.strain(wrench);
   const BasicMotion<T, D> half = exponential(0.5 * k1);
@@ -122,7 +123,7 @@ BasicMotion<T, D> midpoint_step(Section& section, const ArcForces<T, D>* forces,
 }
 
 template <class Section, class T, int D>
-BasicMotion<T, D> fourth_order_step(Section& section, const ArcForces<T, D>* forces, BasicWrench<T, D>& wrench,
+BasicMotion<T, D> fourth_order_step(Section&& section, const ArcForces<T, D>* forces, BasicWrench<T, D>& wrench,
                                     BasicScrew<T, D>& screw) {
   const auto grow = [&](double factor, const BasicMotion<T, D>& motion, BasicWrench<T, D>& growth_here) {
     if (!forces) return wrench;
@@ -157,7 +158,7 @@ struct RodSeries {
 
 // n' = u x n + f, m' = u x m + v x n, f' = u x f for the force fixed in space (primes towards the proximal end).
 template <std::size_t terms, class Section, class T, int D>
-RodSeries<T, D, terms> rod_series(Section& section, const ArcForces<T, D>* forces, const BasicWrench<T, D>& wrench) {
+RodSeries<T, D, terms> rod_series(Section&& section, const ArcForces<T, D>* forces, const BasicWrench<T, D>& wrench) {
   RodSeries<T, D, terms> s;
   std::array<Vector<T, D>, terms> fixed_N;
   s.force_N[0] = wrench.force_N;
@@ -175,7 +176,7 @@ RodSeries<T, D, terms> rod_series(Section& section, const ArcForces<T, D>* force
     for (std::size_t j = 1; j <= k; ++j) {
       force += cross(s.rotation[j], s.force_N[k - j]);
       moment += cross(s.rotation[j], s.moment_Nmm[k - j]);
-      if constexpr (Section::gives_way) moment += arm_cross(s.translation_mm[j], s.force_N[k - j]);
+      if constexpr (std::remove_cvref_t<Section>::gives_way) moment += arm_cross(s.translation_mm[j], s.force_N[k - j]);
     }
     const T share = T(1.0 / static_cast<double>(k + 1));
     if (forces) {
@@ -228,16 +229,16 @@ BasicScrew<T, D> magnus(const RodSeries<T, D, terms>& s) {
 }
 
 template <class Section, class T, int D>
-BasicMotion<T, D> sixth_order_step(Section& section, const ArcForces<T, D>* forces, BasicWrench<T, D>& wrench,
+BasicMotion<T, D> sixth_order_step(Section&& section, const ArcForces<T, D>* forces, BasicWrench<T, D>& wrench,
                                    BasicScrew<T, D>& screw) {
   if (!forces) {
-    screw = magnus<Section::gives_way>(rod_series<6>(section, forces, wrench));
+    screw = magnus<std::remove_cvref_t<Section>::gives_way>(rod_series<6>(section, forces, wrench));
     BasicMotion<T, D> motion = exponential(screw);
     wrench = transport(motion, wrench);
     return motion;
   }
   const RodSeries<T, D, 7> s = rod_series<7>(section, forces, wrench);
-  screw = magnus<Section::gives_way>(s);
+  screw = magnus<std::remove_cvref_t<Section>::gives_way>(s);
   constexpr std::array<double, 7> ones{1, 1, 1, 1, 1, 1, 1};
   wrench = {weighted(s.force_N, ones), weighted(s.moment_Nmm, ones)};
   return exponential(screw);
@@ -245,24 +246,22 @@ BasicMotion<T, D> sixth_order_step(Section& section, const ArcForces<T, D>* forc
 
 // The step of a law but published.
 template <class Section, class T, int D>
-BasicMotion<T, D> law_step(Law law, Section& section, const ArcForces<T, D>* forces, BasicWrench<T, D>& wrench,
+BasicMotion<T, D> law_step(Law law, Section&& section, const ArcForces<T, D>* forces, BasicWrench<T, D>& wrench,
                            BasicScrew<T, D>& screw) {
   if (law == Law::midpoint) return midpoint_step(section, forces, wrench, screw);
   if (law == Law::fourth_order) return fourth_order_step(section, forces, wrench, screw);
   return sixth_order_step(section, forces, wrench, screw);
 }
 
-// Calls visit(section) with the section of a span's arcs.
-template <bool with_shear, class T, int D, class Visit>
-void with_section(const BasicArcConstants<D>& constants, Visit&& visit) {
-  if (constants.tendons.empty() || constants.straight_tendons) {
-    ElasticSection<with_shear, T, D> section(constants);
-    visit(section);
-  } else {
-    TendonSection<with_shear, T, D> section(constants);
-    visit(section);
-  }
-}
+// The same in a section with tendons; `collapsed` is set where one has no length. Compiled apart (tendon_step.cpp):
+// beside the elastic laws it would keep the compiler from inlining those, at 1.1 to 1.4 times the time of a solve.
+template <bool with_shear, class T, int D>
+BasicMotion<T, D> tendon_step(Law law, const BasicArcConstants<D>& arc, const ArcForces<T, D>* forces,
+                              BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw, bool& collapsed);
+
+// Strain times h in any section under a wrench.
+template <bool with_shear, int D>
+BasicScrew<double, D> strain_under(const BasicArcConstants<D>& arc, const BasicWrench<double, D>& wrench);
 
 // Bending angle of the published law in its plane, all quantities made dimensionless with h and EI: the root of
 // d/dtheta of Pi = int_0^1 (theta - M(sigma; theta))^2 dsigma that safeguarded secant steps reach from the mean

@@ -21,7 +21,7 @@ double compliance(const scene::Span& span) {
 
 // The step of a law with every call inlined: twice as fast, but for many derivatives minutes to compile.
 template <class Section, class T, int D>
-FAM_FLATTEN BasicMotion<T, D> flat_step(Law law, Section& section, const ArcForces<T, D>* distributed,
+FAM_FLATTEN BasicMotion<T, D> flat_step(Law law, const Section& section, const ArcForces<T, D>* distributed,
                                         BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw) {
   return law_step(law, section, distributed, wrench, screw);
 }
@@ -107,32 +107,8 @@ void BasicBoundaryValue<D>::set_load(double factor) {
   for (std::size_t i = 0; i < spans_.size(); ++i) span_arcs_[i].set_load(spans_[i], model_, factor);
 }
 
-// Arcs end_arc-1 .. first_arc of one span.
-template <int D>
-template <class Section, class T, class After>
-void BasicBoundaryValue<D>::march_span(const SpanArcs<D>& span, Section& section, int first_arc, int end_arc,
-                                       State<T>& state, After&& after_arc) const {
-  for (int arc = end_arc; arc-- > first_arc;) {
-    BasicScrew<T, D> screw;
-    BasicMotion<T, D> motion;
-    ArcForces<T, D> forces;
-    if (span.distributed) forces = span.forces(state.rotation_SB);
-    const ArcForces<T, D>* distributed = span.distributed ? &forces : nullptr;
-    const BasicWrench<T, D> distal = state.wrench;
-    if constexpr (Section::is_flat && sizeof(T) <= sizeof(Dual<3>)) {
-      motion = flat_step(law_, section, distributed, state.wrench, screw);
-    } else {
-      motion = law_step(law_, section, distributed, state.wrench, screw);
-    }
-    for (int axis = 0; axis < D; ++axis) {
-      state.rotation_SB.col(axis) = motion.rotate(Vector<T, D>(state.rotation_SB.col(axis)));
-    }
-    after_arc(arc, screw, motion, distal, state);
-  }
-  tendon_collapsed_ = tendon_collapsed_ || section.collapsed();
-}
-
-// March over arcs end_arc-1 .. first_arc; after_arc(index, screw, motion, distal wrench, state) sees each proximal end.
+// March over arcs end_arc-1 .. first_arc; after_arc(index, screw, motion, state) sees each proximal end, and its member
+// meet(index, state), if it has one, each distal end.
 template <int D>
 template <bool with_shear, class T, class After>
 void BasicBoundaryValue<D>::march_law(int first_arc, int end_arc, State<T>& state, After&& after_arc) const {
@@ -141,10 +117,27 @@ void BasicBoundaryValue<D>::march_law(int first_arc, int end_arc, State<T>& stat
   while (end_arc > first_arc) {
     --span;
     if (end_arc == span->end_arc) span->add_point_loads(state.rotation_SB, state.wrench);
-    const int first = std::max(first_arc, span->first_arc);
-    with_section<with_shear, T, D>(
-        span->constants, [&](auto& section) { march_span(*span, section, first, end_arc, state, after_arc); });
-    end_arc = first;
+    const ElasticSection<with_shear, T, D> section(span->constants);
+    for (int arc = end_arc; arc-- > std::max(first_arc, span->first_arc);) {
+      BasicScrew<T, D> screw;
+      BasicMotion<T, D> motion;
+      ArcForces<T, D> forces;
+      if (span->distributed) forces = span->forces(state.rotation_SB);
+      const ArcForces<T, D>* distributed = span->distributed ? &forces : nullptr;
+      if constexpr (requires { after_arc.meet(arc, state); }) after_arc.meet(arc, state);
+      if (!span->constants.is_elastic()) {
+        motion = tendon_step<with_shear>(law_, span->constants, distributed, state.wrench, screw, tendon_collapsed_);
+      } else if constexpr (sizeof(T) <= sizeof(Dual<3>)) {
+        motion = flat_step(law_, section, distributed, state.wrench, screw);
+      } else {
+        motion = law_step(law_, section, distributed, state.wrench, screw);
+      }
+      for (int axis = 0; axis < D; ++axis) {
+        state.rotation_SB.col(axis) = motion.rotate(Vector<T, D>(state.rotation_SB.col(axis)));
+      }
+      after_arc(arc, screw, motion, state);
+    }
+    end_arc = std::max(first_arc, span->first_arc);
   }
 }
 
@@ -160,7 +153,7 @@ template <int D>
 void BasicBoundaryValue<D>::start_unloaded() {
   set_load(0);
   State<double> tip{Rotation::Identity(), {}};
-  const auto nothing = [](int, const auto&, const auto&, const auto&, const auto&) {};
+  const auto nothing = [](int, const auto&, const auto&, const auto&) {};
   State<double> clamp = tip;
   march(0, arc_count(), clamp, nothing);
   tip.rotation_SB = clamp.rotation_SB.transpose();
@@ -191,8 +184,7 @@ void BasicBoundaryValue<D>::evaluate_segment(std::size_t k, SegmentEquations& eq
     for (int i = 0; i < D; ++i) state.wrench.force_N[i].slope[turns + i] = force_unit;
     for (int i = 0; i < turns; ++i) state.wrench.moment_Nmm[i].slope[turns + D + i] = moment_unit;
   }
-  march(segments_[k].first_arc, segments_[k].end_arc, state,
-        [](int, const auto&, const auto&, const auto&, const auto&) {});
+  march(segments_[k].first_arc, segments_[k].end_arc, state, [](int, const auto&, const auto&, const auto&) {});
 
   const Rotation target_SB = k > 0 ? nodes_[k - 1].rotation_SB : Rotation::Identity();
   const Eigen::Matrix<Number, D, D> mismatch = state.rotation_SB * target_SB.transpose().template cast<Number>();
@@ -247,7 +239,7 @@ bool BasicBoundaryValue<D>::newton_one_segment(bool fresh_slope, double toleranc
     Turn<double, D> residual;
     if (fresh_slope) {
       State<double> state = nodes_[0];
-      march(0, arc_count(), state, [](int, const auto&, const auto&, const auto&, const auto&) {});
+      march(0, arc_count(), state, [](int, const auto&, const auto&, const auto&) {});
       residual = sine_vector<double>(state.rotation_SB);
       equations.mismatch_is_small = is_small<D>(state.rotation_SB);
       if (std::isfinite(last)) slope_ += (residual - last_residual - slope_ * step) * step.transpose() / (last * last);
@@ -343,16 +335,21 @@ typename BasicBoundaryValue<D>::Orientation BasicBoundaryValue<D>::orientation(b
 template <int D>
 scene::Status BasicBoundaryValue<D>::finish(bool solved) {
   if (!solved) return failure_;
+  struct {
+    BasicBoundaryValue& self;
+    void meet(int arc, const State<double>& state) const {
+      self.distal_wrenches_S_[static_cast<std::size_t>(arc)] = state.wrench;
+    }
+    void operator()(int arc, const BasicScrew<double, D>& screw, const BasicMotion<double, D>& motion,
+                    const State<double>&) const {
+      self.arcs_[static_cast<std::size_t>(arc)].screw = screw;
+      self.motions_[static_cast<std::size_t>(arc)] = motion;
+    }
+  } keep{*this};
   State<double> state;
   for (std::size_t k = segments_.size(); k-- > 0;) {
     state = nodes_[k];
-    march(segments_[k].first_arc, segments_[k].end_arc, state,
-          [this](int index, const auto& screw, const auto& motion, const auto& distal, const auto&) {
-            const auto arc = static_cast<std::size_t>(index);
-            arcs_[arc].screw = screw;
-            motions_[arc] = motion;
-            distal_wrenches_S_[arc] = distal;
-          });
+    march(segments_[k].first_arc, segments_[k].end_arc, state, keep);
   }
   poses_.front() = {};
   for (std::size_t k = 0; k < arcs_.size(); ++k) poses_[k + 1] = poses_[k].then(motions_[k]);
@@ -435,30 +432,29 @@ Stability BasicBoundaryValue<3>::stability() const {
       }
     };
     set(state, nodes_[k]);
-    march(segments_[k].first_arc, segments_[k].end_arc, state,
-          [&](int, const auto&, const auto&, const auto&, State<Number>& s) {
-            State<double> value;
-            Matrix3d turn;
-            Eigen::Matrix<double, 6, 3> slopes;
-            for (int i = 0; i < 3; ++i) {
-              for (int axis = 0; axis < 3; ++axis) value.rotation_SB(i, axis) = s.rotation_SB(i, axis).value;
-              value.wrench.force_N[i] = s.wrench.force_N[i].value;
-              value.wrench.moment_Nmm[i] = s.wrench.moment_Nmm[i].value;
-              slopes.row(i) = s.wrench.force_N[i].slope.matrix().transpose();
-              slopes.row(3 + i) = s.wrench.moment_Nmm[i].slope.matrix().transpose();
-            }
-            for (int field = 0; field < 3; ++field) {
-              Matrix3d slope;
-              for (int i = 0; i < 3; ++i) {
-                for (int axis = 0; axis < 3; ++axis) slope(i, axis) = s.rotation_SB(i, axis).slope[field];
-              }
-              turn.col(field) = -sine_vector<double>(Matrix3d(slope * value.rotation_SB.transpose()));
-            }
-            result.conjugate_points += static_cast<int>((turn.eigenvalues().real().array() < 0).count());
-            result.log_determinant += std::log(std::abs(turn.determinant()));
-            wrench_slopes = slopes * turn.inverse();
-            set(s, value);
-          });
+    march(segments_[k].first_arc, segments_[k].end_arc, state, [&](int, const auto&, const auto&, State<Number>& s) {
+      State<double> value;
+      Matrix3d turn;
+      Eigen::Matrix<double, 6, 3> slopes;
+      for (int i = 0; i < 3; ++i) {
+        for (int axis = 0; axis < 3; ++axis) value.rotation_SB(i, axis) = s.rotation_SB(i, axis).value;
+        value.wrench.force_N[i] = s.wrench.force_N[i].value;
+        value.wrench.moment_Nmm[i] = s.wrench.moment_Nmm[i].value;
+        slopes.row(i) = s.wrench.force_N[i].slope.matrix().transpose();
+        slopes.row(3 + i) = s.wrench.moment_Nmm[i].slope.matrix().transpose();
+      }
+      for (int field = 0; field < 3; ++field) {
+        Matrix3d slope;
+        for (int i = 0; i < 3; ++i) {
+          for (int axis = 0; axis < 3; ++axis) slope(i, axis) = s.rotation_SB(i, axis).slope[field];
+        }
+        turn.col(field) = -sine_vector<double>(Matrix3d(slope * value.rotation_SB.transpose()));
+      }
+      result.conjugate_points += static_cast<int>((turn.eigenvalues().real().array() < 0).count());
+      result.log_determinant += std::log(std::abs(turn.determinant()));
+      wrench_slopes = slopes * turn.inverse();
+      set(s, value);
+    });
   }
   if (!wrench_slopes.allFinite()) result.log_determinant = std::numeric_limits<double>::quiet_NaN();
   return result;

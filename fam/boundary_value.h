@@ -151,9 +151,6 @@ class BasicBoundaryValue {
   scene::Status finish(bool solved);
   template <class T, class After>
   void march(int first_arc, int end_arc, State<T>& state, After&& after_arc) const;
-  template <class Section, class T, class After>
-  void march_span(const SpanArcs<D>& span, Section& section, int first_arc, int end_arc, State<T>& state,
-                  After&& after_arc) const;
   template <bool with_shear, class T, class After>
   void march_law(int first_arc, int end_arc, State<T>& state, After&& after_arc) const;
   template <int N>

@@ -65,11 +65,15 @@ FAM_FLATTEN void BasicMarch<D>::run_law() {
     march([&](const SpanArcs<D>& span, auto& wrench) {
       const ArcForces<double, D> follower{span.follower_force_S_N, Vector<double, D>::Zero()};
       const ArcForces<double, D>* forces = span.distributed ? &follower : nullptr;
-      with_section<with_shear, double, D>(span.constants, [&](auto& section) {
-        for_arcs(span, wrench, distal_wrenches_S_,
-                 [&](std::size_t arc, auto& w) { motions_[arc] = law(section, forces, w, arcs_[arc].screw); });
-        tendon_collapsed_ = tendon_collapsed_ || section.collapsed();
-      });
+      if (!span.constants.is_elastic()) {
+        for_arcs(span, wrench, distal_wrenches_S_, [&](std::size_t arc, auto& w) {
+          motions_[arc] = tendon_step<with_shear>(law_, span.constants, forces, w, arcs_[arc].screw, tendon_collapsed_);
+        });
+        return;
+      }
+      const ElasticSection<with_shear, double, D> section(span.constants);
+      for_arcs(span, wrench, distal_wrenches_S_,
+               [&](std::size_t arc, auto& w) { motions_[arc] = law(section, forces, w, arcs_[arc].screw); });
     });
   };
   if (law_ == Law::midpoint) {

@@ -41,11 +41,13 @@ BasicPose<D> pose_by_law(const SolvedRod<D>& rod, const SpanArcs<D>& span, int a
   forces.fixed_D_N *= part;
   BasicWrench<double, D> wrench = rod.distal_wrenches_S[static_cast<std::size_t>(arc)];
   BasicScrew<double, D> screw;
-  BasicPose<D> pose;
-  with_section<with_shear, double, D>(constants, [&](auto& section) {
-    pose = before(distal, law_step(rod.law, section, span.distributed ? &forces : nullptr, wrench, screw));
-  });
-  return pose;
+  const ArcForces<double, D>* distributed = span.distributed ? &forces : nullptr;
+  if (constants.is_elastic()) {
+    const ElasticSection<with_shear, double, D> section(constants);
+    return before(distal, law_step(rod.law, section, distributed, wrench, screw));
+  }
+  bool collapsed = false;
+  return before(distal, tendon_step<with_shear>(rod.law, constants, distributed, wrench, screw, collapsed));
 }
 
 SectionPose pose_by_bezier(const Arc& arc, const SectionPose& proximal, double fraction) {
@@ -133,16 +135,13 @@ typename BasicShape<D>::Section BasicShape<D>::section(int arc, double fraction)
   total_S.force_N = R.transpose() * total_S.force_N;
   if constexpr (D == 3) total_S.moment_Nmm = R.transpose() * total_S.moment_Nmm;
   const BasicArcConstants<D>& constants = span.constants;
-  const auto with = [&](auto& section) {
-    const BasicScrew<double, D> strain = section.strain(total_S);
-    result.strain_per_mm = (1 / constants.length_mm) * strain;
-    const BasicWrench<double, D> own_S = total_S + (-1.0) * tendon_pulls(constants.tendons, strain);
-    result.own_B.force_N = R * own_S.force_N;
-    if constexpr (D == 3) result.own_B.moment_Nmm = R * own_S.moment_Nmm;
-    else result.own_B.moment_Nmm = own_S.moment_Nmm;
-  };
-  if (rod_.model == RodModel::reissner) with_section<true, double, D>(constants, with);
-  else with_section<false, double, D>(constants, with);
+  const BasicScrew<double, D> strain = rod_.model == RodModel::reissner ? strain_under<true>(constants, total_S)
+                                                                        : strain_under<false>(constants, total_S);
+  result.strain_per_mm = (1 / constants.length_mm) * strain;
+  const BasicWrench<double, D> own_S = total_S + (-1.0) * tendon_pulls(constants.tendons, strain);
+  result.own_B.force_N = R * own_S.force_N;
+  if constexpr (D == 3) result.own_B.moment_Nmm = R * own_S.moment_Nmm;
+  else result.own_B.moment_Nmm = own_S.moment_Nmm;
   return result;
 }
 

@@ -53,7 +53,6 @@ template <bool with_shear, class T, int D>
 class TendonSection {
  public:
   static constexpr bool gives_way = with_shear;
-  static constexpr bool is_flat = false;
   static constexpr int turns = turns_of(D);
   static constexpr int unknowns = with_shear ? turns + D : turns;
   using Strain = Eigen::Matrix<T, unknowns, 1>;  // u h, then v h where it gives way

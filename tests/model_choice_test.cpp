@@ -127,7 +127,7 @@ TEST(ModelChoice, SlenderRodsRunWithoutShear) {
 
 // The first of the random scenes of results/work_precision/promise, old and new families: whole shape and base wrench
 // within the tolerance in all but one in a thousand of those solved, never beyond three times it, no estimate below
-// half the error, and few arcs too many. The twin, a rod 5 % stiffer, keeps hardly any.
+// half the error, and few arcs too many.
 TEST(ModelChoice, KeepsItsPromise) {
   std::vector<studies::Promise> promises;
   for (std::uint64_t index = 0; index < 400; ++index) {
@@ -140,7 +140,8 @@ TEST(ModelChoice, KeepsItsPromise) {
     }
   }
   const studies::PromiseCounts counts = studies::count(promises);
-  EXPECT_GE(counts.solved, 396);
+  EXPECT_GE(counts.scenes, 380);
+  EXPECT_GE(counts.solved, counts.scenes - 1);
   EXPECT_GE(counts.kept, counts.solved - 1);
   EXPECT_GE(counts.wrenches_kept, counts.solved - 1);
   EXPECT_EQ(counts.other_branch, 0);

@@ -1,0 +1,44 @@
+// The arc laws in sections with tendons, for all numbers that are marched.
+#include "fam/arc_law.h"
+#include "fam/tendon.h"
+
+namespace fam {
+
+template <bool with_shear, class T, int D>
+BasicMotion<T, D> tendon_step(Law law, const BasicArcConstants<D>& arc, const ArcForces<T, D>* forces,
+                              BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw, bool& collapsed) {
+  TendonSection<with_shear, T, D> section(arc);
+  const BasicMotion<T, D> motion = law_step(law, section, forces, wrench, screw);
+  collapsed = collapsed || section.collapsed();
+  return motion;
+}
+
+template <bool with_shear, int D>
+BasicScrew<double, D> strain_under(const BasicArcConstants<D>& arc, const BasicWrench<double, D>& wrench) {
+  if (arc.is_elastic()) return ElasticSection<with_shear, double, D>(arc).strain(wrench);
+  return TendonSection<with_shear, double, D>(arc).strain(wrench);
+}
+
+#define FAM_TENDON_STEP(with_shear, T, D)                                                                            \
+  template BasicMotion<T, D> tendon_step<with_shear, T, D>(Law, const BasicArcConstants<D>&, const ArcForces<T, D>*, \
+                                                           BasicWrench<T, D>&, BasicScrew<T, D>&, bool&);
+FAM_TENDON_STEP(true, double, 2)
+FAM_TENDON_STEP(true, Dual<1>, 2)
+FAM_TENDON_STEP(true, Dual<4>, 2)
+FAM_TENDON_STEP(false, double, 2)
+FAM_TENDON_STEP(false, Dual<1>, 2)
+FAM_TENDON_STEP(false, Dual<4>, 2)
+FAM_TENDON_STEP(true, double, 3)
+FAM_TENDON_STEP(true, Dual<3>, 3)
+FAM_TENDON_STEP(true, Dual<9>, 3)
+FAM_TENDON_STEP(false, double, 3)
+FAM_TENDON_STEP(false, Dual<3>, 3)
+FAM_TENDON_STEP(false, Dual<9>, 3)
+#undef FAM_TENDON_STEP
+
+template BasicScrew<double, 2> strain_under<true>(const BasicArcConstants<2>&, const BasicWrench<double, 2>&);
+template BasicScrew<double, 2> strain_under<false>(const BasicArcConstants<2>&, const BasicWrench<double, 2>&);
+template BasicScrew<double, 3> strain_under<true>(const BasicArcConstants<3>&, const BasicWrench<double, 3>&);
+template BasicScrew<double, 3> strain_under<false>(const BasicArcConstants<3>&, const BasicWrench<double, 3>&);
+
+}  // namespace fam
