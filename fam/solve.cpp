@@ -346,7 +346,7 @@ Run refined(const Task& task, const std::vector<int>& arcs, const Run& coarse) {
 
 // Whether arcs twice as many cannot help: two runs failed at the same load, or the work is used up.
 bool is_the_end(const Run& last, const Run& run) {
-  if (run.status == Status::tendon_collapsed) return true;
+  if (run.status == Status::tendon_collapsed && last.status == Status::tendon_collapsed && run.marched()) return true;
   if (run.status == Status::work_limit && run.arc_count() > most_arcs_marched / most_newton_steps) return true;
   if (last.status == Status::converged || last.marched()) return false;
   const auto factor = [](const Run& r) {
@@ -371,6 +371,7 @@ Equilibrium solve_to_tolerance(const Task& task) {
   std::optional<Run> coarse(std::in_place, task.spans, first, task.choice, task.options);
   double error = std::numeric_limits<double>::infinity();
   double needed = error;  // what must meet the tolerance: the error, and that of follower loads' directions over L
+  double last_mm = std::numeric_limits<double>::quiet_NaN();  // distance of the last two runs but one
   int next = 2;
   while (static_cast<double>(next) * count <= max_arcs) {
     Run fine = refined(task, times(first, next), *coarse);
@@ -389,9 +390,11 @@ Equilibrium solve_to_tolerance(const Task& task) {
       };
       const std::string reason = "fewest arcs found whose estimate meets the tolerance";
       if (meets(*coarse, coarse_safety)) return success(task, *coarse, error, reason);
-      if (meets(fine, fine_safety / (std::pow(ratio, p - 1) - 1) + distrust * d_mm / length_mm)) {
+      const double least = std::isnan(last_mm) ? unconfirmed : d_mm > contraction * last_mm ? 1 : 0;
+      if (meets(fine, std::max(least, fine_safety / (std::pow(ratio, p - 1) - 1) + distrust * d_mm / length_mm))) {
         return success(task, fine, error, reason);
       }
+      last_mm = d_mm;
       const double growth = 1.05 * std::pow(needed / task.tolerance_mm, 1 / p);
       after = static_cast<int>(std::clamp(std::ceil(growth * next), 1.3 * next, 4.0 * next));
       after = std::max(after, next + 1);

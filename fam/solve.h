@@ -57,10 +57,13 @@ scene::Equilibrium solve(const scene::Scene& scene, const Options& options = {})
 
 // Automatic choice: runs with N and r N arcs that lie d apart; the estimate is coarse_safety d for the first and
 // d (fine_safety / (r^(p - 1) - 1) + distrust d / L) for the second: an order less than the law's, which few arcs do
-// not show yet.
+// not show yet. Two or three arcs may agree by chance: the second's is at least unconfirmed d where no third resolution
+// was solved, and at least d where d has not fallen below contraction times the distance before it.
 constexpr double coarse_safety = 1.5;
 constexpr double fine_safety = 4;
 constexpr double distrust = 4;
+constexpr double unconfirmed = 0.5;
+constexpr double contraction = 0.3;
 // An answer farther than this times L from the next finer one, or one whose arcs reach farther, does not lead there:
 // that one's loads grow from nothing.
 constexpr double leading_distance = 0.05;

@@ -17,8 +17,6 @@ namespace {
 constexpr double judge_tolerance = 1e-11;
 // Farther than this from the exact shape an answer is not an inexact one but another equilibrium, or plainly wrong.
 constexpr double other_branch = 3e-2;
-// Smaller errors are not told from the judge's own and from round-off.
-constexpr double noise = 3e-9;
 
 double shape_distance(const scene::Equilibrium& a, const scene::Equilibrium& b, double length_mm) {
   return largest_distance_mm(a, b) / length_mm;
@@ -85,6 +83,10 @@ std::uint64_t promise_seed(std::uint64_t index) {
   return place == 5 ? first_buckling_seed + ten : first_family_seed + 4 * ten + (place - 6);
 }
 
+std::uint64_t estimate_seed(std::uint64_t index) {
+  return first_family_seed + families.size() * (index / 2) + index % 2;
+}
+
 Promise promise_of(std::uint64_t seed, bool count_needed) {
   const scene::Scene scene = random_scene(seed);
   const double length_mm = scene::length_mm(scene);
@@ -104,7 +106,8 @@ Promise promise_of(std::uint64_t seed, bool count_needed) {
   promise.estimate = answer.error_estimate_mm / length_mm;
   promise.error = std::max(0.0, shape_distance(answer, truth, length_mm) - judge_error);
   promise.tip_error = std::max(0.0, tip_distance(answer, truth, length_mm) - judge_error);
-  promise.wrench_error = std::max(0.0, wrench_distance(answer, truth, length_mm, load_size_N(scene, length_mm)) - judge_error);
+  promise.wrench_error =
+      std::max(0.0, wrench_distance(answer, truth, length_mm, load_size_N(scene, length_mm)) - judge_error);
   promise.same_branch = promise.error <= std::max(other_branch, 3 * promise.tolerance);
   for (const auto& [key, value] : answer.model) {
     if (key == "arcs") promise.arcs = std::get<int>(value);
@@ -129,7 +132,7 @@ PromiseCounts count(const std::vector<Promise>& promises) {
     counts.kept += promise.error <= promise.tolerance;
     counts.tips_kept += promise.tip_error <= promise.tolerance;
     counts.wrenches_kept += promise.wrench_error <= promise.tolerance;
-    counts.low_estimates += promise.error > noise && promise.estimate < promise.error / 2;
+    counts.low_estimates += promise.error > smallest_judged_error && promise.estimate < promise.error / 2;
     counts.worst = std::max(counts.worst, promise.error / promise.tolerance);
     counts.worst_wrench = std::max(counts.worst_wrench, promise.wrench_error / promise.tolerance);
     if (promise.needed > 0) waste.push_back(static_cast<double>(promise.arcs) / promise.needed);

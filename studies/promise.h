@@ -31,8 +31,14 @@ struct Promise {
 // (random_scene.h).
 std::uint64_t promise_seed(std::uint64_t index);
 
+// The seed of scene 0, 1, 2, ... of the estimates: strips and heavy rods in turn.
+std::uint64_t estimate_seed(std::uint64_t index);
+
 // The tolerance goes round 1e-2 .. 1e-8 L with the seed. count_needed: look for `needed` as well.
 Promise promise_of(std::uint64_t seed, bool count_needed);
+
+// Over L; smaller errors are not told from the judge's own and from round-off.
+constexpr double smallest_judged_error = 3e-9;
 
 struct PromiseCounts {
   int scenes = 0;                         // judged
@@ -50,5 +56,7 @@ PromiseCounts count(const std::vector<Promise>& promises);
 // promise.csv (every scene that is not solved, not kept or not judged), counts.csv, promise.svg and README.md of
 // results/work_precision/promise.
 std::map<std::string, std::string> promise_files(const std::vector<Promise>& promises);
+// estimates.md, estimates.csv (by kind) and estimates_low.csv: every estimate below half the error.
+std::map<std::string, std::string> estimate_files(const std::vector<Promise>& promises);
 
 }  // namespace studies

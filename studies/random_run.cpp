@@ -5,6 +5,7 @@
 //   random_scenes second FOLDER         a second opinion on every scene in which FAM is wrong and silent
 //   random_scenes sum FOLDER OUTPUT     counts.csv, failures.csv and README.md from the blocks
 //   random_scenes promise N OUTPUT      N scenes: is the tolerance kept (promise.h)?
+//   random_scenes estimates N OUTPUT    N strips and heavy rods: is an estimate below half the error?
 //   random_scenes check FOLDER LIST     fails on a listed outcome (random_study.h) of a seed that LIST does not hold
 #include "scene/scene_file.h"
 #include "studies/output_file.h"
@@ -132,13 +133,14 @@ std::set<std::uint64_t> listed_seeds(const fs::path& path) {
 }
 
 // By two threads, each taking the next scene.
-std::vector<studies::Promise> all_promises(std::uint64_t scenes) {
+template <class Seed>
+std::vector<studies::Promise> all_promises(std::uint64_t scenes, Seed&& seed_of) {
   std::vector<studies::Promise> promises(scenes);
   std::atomic<std::uint64_t> next = 0;
   const auto work = [&] {
     for (std::uint64_t i = next++; i < scenes; i = next++) {
       const bool count_needed = i / 10 % 4 == 0;  // a quarter of the scenes, all kinds and tolerances
-      promises[i] = studies::promise_of(studies::promise_seed(i), count_needed);
+      promises[i] = studies::promise_of(seed_of(i), count_needed);
       if (i % 1000 == 999) fmt::print(stderr, "promise: {} of {}\n", i + 1, scenes);
     }
   };
@@ -178,14 +180,21 @@ int main(int argc, char** argv) {
       studies::write_file(fs::path(arguments[2]) / name, text);
     }
   } else if (command == "promise" && arguments.size() == 3) {
-    for (const auto& [name, text] : studies::promise_files(all_promises(std::stoull(arguments[1])))) {
+    const auto promises = all_promises(std::stoull(arguments[1]), studies::promise_seed);
+    for (const auto& [name, text] : studies::promise_files(promises)) {
+      studies::write_file(fs::path(arguments[2]) / name, text);
+    }
+  } else if (command == "estimates" && arguments.size() == 3) {
+    const auto promises = all_promises(std::stoull(arguments[1]), studies::estimate_seed);
+    for (const auto& [name, text] : studies::estimate_files(promises)) {
       studies::write_file(fs::path(arguments[2]) / name, text);
     }
   } else if (command == "check" && arguments.size() == 3) {
     return check(arguments[1], arguments[2]);
   } else {
     fmt::print(stderr,
-               "random_scenes scene SEED | run FROM TO FOLDER | second FOLDER | sum FOLDER OUTPUT | promise N OUTPUT "
+               "random_scenes scene SEED | run FROM TO FOLDER | second FOLDER | sum FOLDER OUTPUT | promise N OUTPUT | "
+               "estimates N OUTPUT "
                "| check FOLDER LIST\n");
     return 2;
   }

@@ -24,13 +24,14 @@ using Eigen::Vector3d;
 const std::vector<int> all_arcs = {1,   2,    3,    4,    6,     8,     12,    20,     30,     50,     100,    200,
                                    500, 1000, 2000, 5000, 10000, 20000, 50000, 100000, 200000, 500000, 1000000};
 const std::vector<int> few_arcs = {1, 2, 4, 12, 50, 500, 5000};
-const std::vector<std::string> laws = {"published", "midpoint", "fourth_order", "fourth_order_reissner"};
+const std::vector<std::string> laws = {"published", "midpoint", "fourth_order", "fourth_order_reissner", "sixth_order"};
 
 fam::Options march_options(const std::string& law, int arcs) {
   fam::Options options;
-  options.law = law == "published"  ? fam::Law::published
-                : law == "midpoint" ? fam::Law::midpoint
-                                    : fam::Law::fourth_order;
+  options.law = law == "published"     ? fam::Law::published
+                : law == "midpoint"    ? fam::Law::midpoint
+                : law == "sixth_order" ? fam::Law::sixth_order
+                                       : fam::Law::fourth_order;
   options.model = law == "fourth_order_reissner" ? fam::RodModel::reissner : fam::RodModel::kirchhoff;
   options.arcs = arcs;
   options.estimate_error = false;
@@ -142,7 +143,7 @@ class Segmentation {
 
   void find_budgets() {
     for (const std::string load : {"P4 scaled", "transverse force"}) {
-      for (const std::string law : {"published", "midpoint", "fourth_order"}) {
+      for (const std::string law : {"published", "midpoint", "fourth_order", "sixth_order"}) {
         for (const int arcs : {1, 2, 4, 8, 12, 20, 50, 100, 200, 500}) {
           for (const double limit_mm : {0.01, 0.1, 1.0}) data_.budgets.push_back(budget(load, law, arcs, limit_mm));
         }

@@ -22,13 +22,14 @@ struct Series {
 const std::vector<Series> series = {{"published", "published", colour::blue},
                                     {"midpoint", "midpoint", colour::green},
                                     {"fourth_order", "fourth_order", colour::orange},
+                                    {"sixth_order", "sixth_order", colour::black},
                                     {"fourth_order_reissner", "fourth_order with shear", colour::purple}};
 
 void draw_errors(Panel& panel, const SegmentationData& data, double SweepPoint::*error) {
   for (const Series& s : series) {
     const bool against_exact = error == &SweepPoint::exact_mm;
     if (against_exact && std::string(s.law) == "fourth_order_reissner") continue;
-    if (!against_exact && std::string(s.law) == "midpoint") continue;
+    if (!against_exact && (std::string(s.law) == "midpoint" || std::string(s.law) == "sixth_order")) continue;
     std::vector<Point> points;
     for (const SweepPoint& p : data.curve("P4", s.law)) {
       points.push_back({static_cast<double>(p.arcs), drawn(p.*error)});

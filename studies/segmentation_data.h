@@ -14,7 +14,7 @@ namespace studies {
 // Errors below 1e-12 L are round-off of the reference and of the march; files and pictures show this value for them.
 constexpr double error_floor_mm = 4e-11;
 
-// law: published, midpoint, fourth_order (Kirchhoff rods), fourth_order_reissner (with shear and stretch).
+// law: published, midpoint, fourth_order, sixth_order (Kirchhoff rods), fourth_order_reissner (with shear and stretch).
 struct SweepPoint {
   std::string load_case, law;
   int arcs;

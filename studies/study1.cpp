@@ -45,6 +45,7 @@ std::map<std::string, std::unique_ptr<Method>> competitors() {
       fam_method(fam_options(Law::published, 12, kirchhoff, TwistOrder::twist_bend));
   methods["fam_published_50"] = fam_method(fam_options(Law::published, 50, kirchhoff));
   methods["fam_fourth_order_50"] = fam_method(fam_options(Law::fourth_order, 50, kirchhoff));
+  methods["fam_sixth_order_12"] = fam_method(fam_options(Law::sixth_order, 12, kirchhoff));
   methods["fam_fourth_order_50_reissner"] = fam_method(fam_options(Law::fourth_order, 50, fam::RodModel::reissner));
   methods["fe"] = fem_method(fem_options(fem_reference::RodModel::reissner));
   methods["exact"] = exact_method({});

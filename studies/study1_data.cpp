@@ -48,6 +48,8 @@ const std::vector<std::pair<std::string, std::string>>& study1_pairs() {
                                                                          {"fe_kirchhoff", "fe"},
                                                                          {fam12, "exact_kirchhoff"},
                                                                          {fam12 + "_twist_bend", "exact_kirchhoff"},
+                                                                         {"fam_sixth_order_12", "fe_kirchhoff"},
+                                                                         {"fam_sixth_order_12", "exact_kirchhoff"},
                                                                          {"fam_fourth_order_50_reissner", "exact"},
                                                                          {"exact_kirchhoff", "exact"},
                                                                          {"exact", "fe"}};

@@ -29,6 +29,7 @@ fam::Options arc_options(const std::string& law, int arcs, fam::RodModel model =
   fam::Options options;
   options.law = law == "midpoint"       ? fam::Law::midpoint
                 : law == "fourth_order" ? fam::Law::fourth_order
+                : law == "sixth_order"  ? fam::Law::sixth_order
                                         : fam::Law::published;
   options.twist_order = law == "twist_bend" ? fam::TwistOrder::twist_bend : fam::TwistOrder::bend_twist;
   options.model = model;
@@ -44,7 +45,9 @@ double distance_mm(const scene::Equilibrium& a, const scene::Equilibrium& b) {
 class Torsion {
  public:
   explicit Torsion(const StudyOptions& options)
-      : folder_(options.output / "torsion"), s1_(read_case(options, "S1_follower")) {
+      : folder_(options.output / "torsion"),
+        s1_(read_case(options, "S1_follower")),
+        tendons_(read_case(options, "three_tendons")) {
     const auto& circle = std::get<scene::CircularSection>(s1_.sections[0].cross_section);
     const double d = circle.outer_diameter_mm;
     data_.rod = {scene::length_mm(s1_), scene::stiffness_of(s1_.sections[0]).torsion_Nmm2, std::numbers::pi * d * d / 4,
@@ -55,6 +58,7 @@ class Torsion {
   void run() {
     for (const double torque : torques_Nmm) solve_torque(torque);
     for (const double torque : order_torques_Nmm) find_orders(torque);
+    for (const double torque : {0, 5, 10, 20, 30, 40, 50}) tilt_tendons(torque);
     write();
   }
 
@@ -121,6 +125,31 @@ class Torsion {
     }
   }
 
+  // The rest curvature that tendons along e_x amount to: K^-1 sum -r x T e_x.
+  scene::Scene with_straight_tendons(scene::Scene scene) const {
+    const scene::Stiffness stiffness = scene::stiffness_of(scene.sections[0]);
+    Vector3d moment_Nmm = Vector3d::Zero();
+    std::erase_if(scene.loads, [&](const scene::Load& load) {
+      const auto* tendon = std::get_if<scene::Tendon>(&load);
+      if (tendon) moment_Nmm += tendon->tension_N * Vector3d(0, -tendon->offset_mm[1], tendon->offset_mm[0]);
+      return tendon != nullptr;
+    });
+    scene.sections[0].rest_curvature_per_mm +=
+        Vector3d(0, moment_Nmm[1] / stiffness.bending_Nmm2[0], moment_Nmm[2] / stiffness.bending_Nmm2[1]);
+    return scene;
+  }
+
+  void tilt_tendons(double torque) {
+    scene::Scene scene = tendons_;
+    scene.loads.push_back(scene::Moment{scene::length_mm(scene), scene::Frame::follower, {torque, 0, 0}});
+    fam::Options fine;
+    fine.tolerance_mm = 1e-8;
+    const scene::Equilibrium fam = fam::solve(scene, fine), straight = fam::solve(with_straight_tendons(scene), fine);
+    data_.tilts.push_back({torque, fam.tip().position_B_mm, straight.tip().position_B_mm,
+                           distance_mm(fam, exact(scene, exact_reference::RodModel::kirchhoff)),
+                           distance_mm(fam, fem_reference::solve(scene))});
+  }
+
   // Doubling, then bisection.
   template <class Error>
   static int fewest_arcs(double limit_mm, const Error& error_mm) {
@@ -144,7 +173,7 @@ class Torsion {
   }
 
   std::filesystem::path folder_;
-  scene::Scene s1_;
+  scene::Scene s1_, tendons_;
   TorsionData data_;
 };
 

@@ -22,7 +22,7 @@ const std::vector<Series> own_series = {
     {"bend_twist_500", "published 500, bend then twist", colour::blue, "5 3", &TorsionTip::own_mm},
     {"midpoint_12", "midpoint 12", colour::green, "", &TorsionTip::own_mm},
     {"fourth_order_12", "fourth_order 12", colour::orange, "", &TorsionTip::own_mm},
-    {"fourth_order_50", "fourth_order 50", colour::orange, "5 3", &TorsionTip::own_mm}};
+    {"sixth_order_12", "sixth_order 12", colour::black, "", &TorsionTip::own_mm}};
 
 const std::vector<Series> fe_series = {
     {"bend_twist_12", "published 12 − FE", colour::blue, "", &TorsionTip::fe_mm},
@@ -64,8 +64,8 @@ std::string error_picture(const TorsionData& data) {
 std::string order_picture(const TorsionData& data) {
   Svg svg(1010, 470);
   svg.text({26, 24}, "Case S1 (our loads): tip error over N, against the exact Kirchhoff rod", Anchor::start, 15);
-  const std::vector<std::string> colours = {colour::blue, colour::sky, colour::green, colour::orange};
-  const std::vector<std::string> names = {"bend, twist", "twist, bend", "midpoint", "fourth_order"};
+  const std::vector<std::string> colours = {colour::blue, colour::sky, colour::green, colour::orange, colour::black};
+  const std::vector<std::string> names = {"bend, twist", "twist, bend", "midpoint", "fourth_order", "sixth_order"};
   double left = 80;
   for (const double torque : {0.0, 50.0}) {
     Panel panel(svg, {left, 66}, 320, 340, {"number of arcs N", 3, 200, true}, {"tip error, mm", 1e-10, 100, true});

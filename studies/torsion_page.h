@@ -41,6 +41,14 @@ struct TorsionArcs {
   int arcs;
 };
 
+// Three tendons (studies/cases/three_tendons.json) under a torque: tip with tendons along their own tangents, by FAM,
+// and by the same rod whose tendons stay along e_x, a constant moment and so a rest curvature.
+struct TendonTilt {
+  double torque_Nmm;
+  Eigen::Vector3d tip_mm, straight_tip_mm;
+  double exact_mm, fe_mm;  // distance of FAM's tip from the exact one and that of the finite elements
+};
+
 struct TorsionShape {
   double torque_Nmm;
   std::string method;  // published_12, exact_kirchhoff
@@ -54,11 +62,12 @@ struct TorsionData {
   std::vector<TorsionOrder> orders;
   std::vector<TorsionArcs> arcs;
   std::vector<TorsionShape> shapes;
+  std::vector<TendonTilt> tilts;
 
   const TorsionTip& tip(double torque_Nmm, const std::string& method) const;
 };
 
-// bend_twist, twist_bend (the published law in both orders of its rotations), midpoint, fourth_order.
+// bend_twist, twist_bend (the published law in both orders of its rotations), midpoint, fourth_order, sixth_order.
 const std::vector<std::string>& torsion_laws();
 
 std::map<std::string, std::string> torsion_files(const TorsionData& data);
