@@ -49,12 +49,19 @@ int march_derivative(realtype, N_Vector y_vector, N_Vector dy_vector, void* marc
   return dy.allFinite() ? 0 : -1;
 }
 
-constexpr long most_steps = 1'000'000;  // of a march, some three seconds
+// Of a march, some three seconds; a section with tendons takes ten times as long to solve.
+constexpr long most_steps_elastic = 1'000'000, most_steps_tendons = 50'000;
+
+long most_steps(const ScaledRod& rod) {
+  const bool tendons =
+      std::any_of(rod.spans.begin(), rod.spans.end(), [](const ScaledSpan& span) { return !span.tendons.empty(); });
+  return tendons ? most_steps_tendons : most_steps_elastic;
+}
 
 // SUNDIALS objects of one march.
 class Integrator {
  public:
-  explicit Integrator(double tolerance)
+  Integrator(double tolerance, long most_steps)
       : vector_(N_VNew_Serial(MarchState::RowsAtCompileTime, context_)),
         cvode_(CVodeCreate(CV_ADAMS, context_)),
         solver_(SUNNonlinSol_FixedPoint(vector_, 0, context_)) {
@@ -127,7 +134,7 @@ double drift(const MarchState& a, const MarchState& b) {
 March march(const ScaledRod& rod, const std::vector<double>& places, double tolerance) {
   March result;
   result.states.resize(places.size());
-  Integrator integrator(tolerance);
+  Integrator integrator(tolerance, most_steps(rod));
   integrator.state()[0] = 1;
   const double tip = rod.spans.back().end;
   std::size_t k = places.size() - 1;
@@ -138,7 +145,7 @@ March march(const ScaledRod& rod, const std::vector<double>& places, double tole
     integrator.restart(tip - span->end, marched);
     const MarchState start = result.states[k] = integrator.state();
     while (k > 0 && places[k] > span->start) {
-      if (result.steps + integrator.steps() > most_steps) return result;
+      if (result.steps + integrator.steps() > most_steps(rod)) return result;
       if (!integrator.advance_to(tip - places[--k])) {
         result.tendon_collapsed = marched.tendon_collapsed;
         return result;
