@@ -254,6 +254,30 @@ TEST(SurvivorsExact, TurnedAboutTheAxis) {
   turned_about_the_axis([](const Scene& scene) { return by_exact(scene); }, 1e-9);
 }
 
+// One fixed force off the centreline, in planes at all angles: few enough round-offs for the turned scene to be planar.
+void arm_turned_about_the_axis(const Method& solve, double limit_mm) {
+  const auto loaded = [](double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    return uniform_rod(40, slender(750, 500), {Force{40, Frame::fixed, {-0.3, 0.5 * c, 0.5 * s}, {3 * c, 3 * s}}});
+  };
+  const Vector3d flat = tip(solve(loaded(0)));
+  EXPECT_GT((flat - tip(solve(support::stiffer(loaded(0))))).norm(), 1e-2);
+  int planar = 0;
+  for (const double angle : {0.3, 0.7, 1.1, 1.9, 2.6, -0.4, -2.}) {
+    const Matrix3d Q = AngleAxisd(angle, Vector3d::UnitX()).toRotationMatrix();
+    EXPECT_LT((tip(solve(loaded(angle))) - Q * flat).norm(), limit_mm) << angle;
+    planar += scene::plane_direction(spans(loaded(angle))).has_value();
+  }
+  EXPECT_GT(planar, 2);
+}
+
+TEST(SurvivorsFam, ArmTurnedAboutTheAxis) {
+  arm_turned_about_the_axis([](const Scene& scene) { return by_fam(scene, 1e-8); }, 2e-8);
+}
+TEST(SurvivorsExact, ArmTurnedAboutTheAxis) {
+  arm_turned_about_the_axis([](const Scene& scene) { return by_exact(scene); }, 1e-9);
+}
+
 // A column pressed beyond Euler's load and pushed aside by a follower force, without an energy: the elastica with
 // k = sin(angle/2), K(k) = sqrt(P L^2/EI), whose tip lies at x = (2 E/K - 1) L, 2 k/K L aside; and with an energy, by
 // two small fixed forces that leave no plane of symmetry, the same one, stable.
@@ -668,11 +692,16 @@ TEST(SurvivorsExact, FewLoadSteps) {
 }
 
 // A column on its axis passes Euler's load in a step no longer than smallest_bifurcation_step = 1e-5, to which halving
-// leads: more than log2(0.1/1e-5) = 13 steps refused or taken.
+// leads and from which the steps grow again, two- or threefold: at least log3(0.1/1e-5) = 8.4 of them.
+int steps_past_eulers_load(const Method& solve) {
+  return fact<int>(solve(uniform_rod(1, slender(1, 0.7), {Force{1, Frame::fixed, {-1.25 * pi * pi / 4, 0, 0}}})),
+                   "load_steps");
+}
 TEST(SurvivorsFam, EulersLoadIsPassedInAShortStep) {
-  const Equilibrium found =
-      by_fam(uniform_rod(1, slender(1, 0.7), {Force{1, Frame::fixed, {-1.25 * pi * pi / 4, 0, 0}}}), 1e-3);
-  EXPECT_GE(fact<int>(found, "load_steps"), 10);
+  EXPECT_GE(steps_past_eulers_load([](const Scene& scene) { return by_fam(scene, 1e-3); }), 9);
+}
+TEST(SurvivorsExact, EulersLoadIsPassedInAShortStep) {
+  EXPECT_GE(steps_past_eulers_load([](const Scene& scene) { return by_exact(scene); }), 9);
 }
 
 // A strip twisted by ten thousand turns: its steps are a half radian each, and too many.
@@ -708,6 +737,15 @@ TEST(SurvivorsFem, EstimatesOfCoarseMeshes) {
     }
   }
   EXPECT_GT(answers, 40);
+}
+
+// One element cannot show that it turns by pi or more: 9 and 13 rad on it are no answer. Twenty elements show them.
+TEST(SurvivorsFem, ElementsThatTurnOver) {
+  for (const auto& [order, turn] : {std::pair{1, 13.}, {2, 9.}}) {
+    const Scene rolled = uniform_rod(1, slender(1, 1), {Moment{1, Frame::follower, {0, 0, turn}}});
+    EXPECT_EQ(by_fem(rolled, 1, order).status, scene::Status::not_converged) << order;
+    EXPECT_LT((tip(by_fem(rolled, 20)) - Vector3d(std::sin(turn), 1 - std::cos(turn), 0) / turn).norm(), 1e-3);
+  }
 }
 
 // Pressed by 1.5 EA: the sections would have to turn inside out.
