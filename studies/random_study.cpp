@@ -16,7 +16,7 @@ namespace studies {
 namespace {
 
 std::string loads_of(const scene::Scene& scene, std::uint64_t seed) {
-  if (seed >= first_buckling_seed) return "buckling";
+  if (seed >= first_buckling_seed) return kind_of(seed);
   bool follower = false, fixed = false;
   const auto meet = [&](scene::Frame frame, bool is_zero) {
     if (!is_zero) (frame == scene::Frame::fixed ? fixed : follower) = true;
@@ -116,14 +116,26 @@ RandomOutcome from_line(const std::string& line) {
   return o;
 }
 
+// "0–4999, 100000–101999".
+std::string ranges(const std::set<std::uint64_t>& seeds) {
+  std::string text;
+  for (auto seed = seeds.begin(); seed != seeds.end();) {
+    const std::uint64_t first = *seed;
+    std::uint64_t last = first;
+    while (++seed != seeds.end() && *seed == last + 1) last = *seed;
+    text += (text.empty() ? "" : ", ") + fmt::format("{}–{}", first, last);
+  }
+  return text;
+}
+
 std::map<std::string, std::string> random_files(const std::vector<RandomOutcome>& outcomes) {
   std::map<std::array<std::string, 3>, int> counts;
-  std::map<std::array<std::string, 2>, std::array<int, 2>> of_method;  // general scenes, buckling ones
+  std::map<std::array<std::string, 2>, std::array<int, 3>> of_method;  // general scenes, buckling ones, families
   std::set<std::uint64_t> seeds;
   Table failures({"seed", "loads", "method", "outcome", "error_over_L", "estimate_over_L"});
   for (const RandomOutcome& o : outcomes) {
     ++counts[{o.loads, o.method, o.outcome}];
-    ++of_method[{o.method, o.outcome}][o.seed < first_buckling_seed ? 0 : 1];
+    ++of_method[{o.method, o.outcome}][o.seed < first_buckling_seed ? 0 : o.seed < first_family_seed ? 1 : 2];
     seeds.insert(o.seed);
     if (is_listed(o)) {
       failures.add({std::to_string(o.seed), o.loads, o.method, o.outcome, scientific(o.error, 0),
@@ -132,9 +144,9 @@ std::map<std::string, std::string> random_files(const std::vector<RandomOutcome>
   }
   Table table({"loads", "method", "outcome", "scenes"});
   for (const auto& [key, count] : counts) table.add({key[0], key[1], key[2], std::to_string(count)});
-  Table summary({"method", "outcome", "scenes", "rods that buckle"});
+  Table summary({"method", "outcome", "general scenes", "rods that buckle", "families"});
   for (const auto& [key, count] : of_method) {
-    summary.add({key[0], key[1], std::to_string(count[0]), std::to_string(count[1])});
+    summary.add({key[0], key[1], std::to_string(count[0]), std::to_string(count[1]), std::to_string(count[2])});
   }
   const auto silent = [&](const std::string& method) {
     int sum = 0;
@@ -151,9 +163,10 @@ std::map<std::string, std::string> random_files(const std::vector<RandomOutcome>
   const std::string text = fmt::format(
       R"(# Random scenes
 
-{} random scenes (seeds {} to {}; `studies/random_scene.cpp`): up to seed {} over all load kinds, 1 to 20
-sections, loads up to 1000 EI/L²; beyond it rods that buckle, pressed up to 50 times Euler's load almost along the axis
-or strips bent almost in their stiff plane, and pushed aside by 1e-7 to 0.1 EI/L². FAM chooses its arcs for a tip error
+{} random scenes (`studies/random_scene.cpp`): seeds below 100 000 over all load kinds, 1 to 20 sections, loads up to 1000
+EI/L²; from 100 000 rods that buckle, pressed up to 50 times Euler's load almost along the axis or strips bent almost in
+their stiff plane, and pushed aside by 1e-7 to 0.1 EI/L²; from 200 000 strips, heavy rods, coiled rods, robots with
+tendons, cables and rods of soft shear in turn. Seeds: {}. FAM chooses its arcs for a tip error
 of 1e-4 L; the exact reference resolves 1e-9 L and judges; 50 quadratic finite elements join on one scene of 100.
 
 Wrong without saying so, on this branch or another: FAM {}, finite elements {}.
@@ -166,13 +179,12 @@ Wrong without saying so, on this branch or another: FAM {}, finite elements {}.
 
 Seeds of every answer that is wrong and silent, missing or unjudged: [failures.csv](failures.csv). By kind of load:
 [counts.csv](counts.csv) (follower: with follower loads and tendons alone; dead: with fixed forces, weight and tendons
-alone, which have an energy; buckling: the rods that buckle; mixed: the rest).
+alone, which have an energy; mixed: the rest; buckling and the families by their names).
 
     build/release/bin/random_scenes scene SEED > scene.json    # one of them as a scene file
-    build/release/bin/random_scenes run 0 110000 FOLDER        # all again; resumes, and may run beside itself
+    build/release/bin/random_scenes run FROM TO FOLDER         # thousands again; resumes, and may run beside itself
 )",
-      seeds.size(), *seeds.begin(), *seeds.rbegin(), first_buckling_seed - 1, silent("fam"), silent("fem"),
-      summary.markdown(), second_opinion);
+      seeds.size(), ranges(seeds), silent("fam"), silent("fem"), summary.markdown(), second_opinion);
   return {{"counts.csv", table.csv()}, {"failures.csv", failures.csv()}, {"README.md", text}};
 }
 }  // namespace studies
