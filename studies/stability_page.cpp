@@ -177,7 +177,7 @@ std::string stability_headline(const StabilityData& data) {
       "## [Stability](stability/README.md): where each method breaks\n\n{} solves over loads, directions, turns and "
       "sections. Wrong and not flagged: FAM, finite elements and exact reference {}, plain RK4 shooting {}. The same "
       "for "
-      "100 000 [random scenes](stability/random/README.md).\n\n![Follower force over arcs](stability/follower.svg)\n",
+      "10 000 [random scenes](stability/random/README.md).\n\n![Follower force over arcs](stability/follower.svg)\n",
       data.cells.size(), silent_of_ours(data), silent_of(data, plain_shooting));
 }
 
