@@ -1,6 +1,6 @@
 // fam: one scene, at once. `fam solve SCENE`; `fam solve --help` and README.md say more.
 #include "apps/solve_command.h"
-#include "studies/fam_method.h"
+#include "studies/methods/fam_method.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"The finite arc method: the static shape of a clamped slender rod"};

@@ -1,19 +1,13 @@
-// fam-studies: everything that compares. `fam-studies --help` and README.md say more.
+// fam-studies: everything that compares. `fam-studies --help`, `fam-studies --list` and docs/commands.md say more.
 #include "apps/solve_command.h"
 #include "scene/scene_file.h"
-#include "studies/benchmarks.h"
-#include "studies/exact_method.h"
-#include "studies/fam_method.h"
-#include "studies/fe_verification.h"
-#include "studies/fem_method.h"
-#include "studies/rk4_method.h"
-#include "studies/segmentation.h"
-#include "studies/stability.h"
-#include "studies/stability_maps.h"
-#include "studies/study1.h"
-#include "studies/study2.h"
-#include "studies/torsion.h"
-#include "studies/work_precision.h"
+#include "studies/methods/exact_method.h"
+#include "studies/methods/fam_method.h"
+#include "studies/methods/fem_method.h"
+#include "studies/methods/rk4_method.h"
+#include "studies/random/command.h"
+#include "studies/registry.h"
+#include "studies/stability/maps.h"
 
 #include <fmt/format.h>
 
@@ -44,36 +38,67 @@ void add_method_options(CLI::App* solve, apps::SolveArguments& arguments) {
   solve->add_option("--order", arguments.order, "fem: order of the elements (default: 2)")->check(CLI::Range(1, 3));
 }
 
+struct StudyArguments {
+  studies::StudyOptions options;
+  bool quiet = false, full = false;
+};
+
+void add_study_options(CLI::App* command, StudyArguments& arguments) {
+  studies::StudyOptions& options = arguments.options;
+  command->add_option("--output", options.output, "Folder to write to (default: results)");
+  command->add_option("--cases", options.cases, "Folder of the scene files (default: the project's studies/cases)");
+  command->add_option("--data", options.data, "Folder of the published numbers (default: the project's tests/data)");
+  command->add_flag("--quick", options.quick, "The smallest setting that still runs every line");
+  command->add_flag("--quiet", arguments.quiet, "Do not say what is done");
+}
+
+void print_list() {
+  for (const studies::Study& study : studies::all_studies()) {
+    fmt::print("{:<16} {:<70} {}{}\n", study.command(), study.question, study.time, study.full ? " (all --full)" : "");
+  }
+}
+
+// The studies that the words of the command line ask for, then the index of all results.
+int run_studies(const CLI::App& app, StudyArguments& arguments) {
+  studies::StudyOptions& options = arguments.options;
+  options.progress = arguments.quiet ? studies::Progress::Style::quiet : studies::Progress::style_of(stderr);
+  for (const studies::Study& study : studies::all_studies()) {
+    const bool in_all = app.got_subcommand("all") && (arguments.full || !study.full);
+    if (app.got_subcommand(study.command()) || in_all) {
+      study.run(options);
+    } else if (app.got_subcommand("all") && !arguments.quiet) {
+      fmt::print(stderr, "{}: not run, the results of before stay; `fam-studies all --full` runs it ({})\n",
+                 study.command(), study.time);
+    }
+  }
+  studies::write_index(options);
+  return apps::exit_solved;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"Studies of the finite arc method"};
-  app.require_subcommand(1);
-  apps::SolveArguments arguments;
-  CLI::App* solve = apps::add_solve_command(app, arguments);
-  add_method_options(solve, arguments);
+  bool list = false;
+  app.add_flag("--list", list, "Print the studies, what each answers and how long it takes");
+  apps::SolveArguments solve_arguments;
+  CLI::App* solve = apps::add_solve_command(app, solve_arguments);
+  add_method_options(solve, solve_arguments);
 
-  studies::StudyOptions options;
-  options.cases = STUDY_CASES_DIR;
-  options.data = STUDY_DATA_DIR;
-  const std::vector<std::pair<std::string, std::function<void(const studies::StudyOptions&)>>> studies = {
-      {"study1", studies::study1},
-      {"benchmarks", studies::benchmarks},
-      {"fe-verification", studies::fe_verification},
-      {"segmentation", studies::segmentation},
-      {"torsion", studies::torsion},
-      {"study2", studies::study2},
-      {"work-precision", studies::work_precision},
-      {"stability", studies::stability}};
-  for (const auto& [name, study] : studies) app.add_subcommand(name, "Run this study and write its results");
-  app.add_subcommand("all", "Run every study");
-  for (CLI::App* command : app.get_subcommands({})) {
-    if (command == solve) continue;
-    command->add_option("--output", options.output, "Folder to write to (default: results)");
-    command->add_option("--cases", options.cases, "Folder of the scene files (default: the project's studies/cases)");
-    command->add_option("--data", options.data, "Folder of the published numbers (default: the project's tests/data)");
-    command->add_flag("--quick", options.quick, "The smallest setting that still runs every line");
+  StudyArguments arguments;
+  arguments.options.cases = STUDIES_DIR "/cases";
+  arguments.options.pages = STUDIES_DIR;
+  arguments.options.data = STUDY_DATA_DIR;
+  for (const studies::Study& study : studies::all_studies()) {
+    add_study_options(app.add_subcommand(study.command(), study.question), arguments);
   }
+  CLI::App* all = app.add_subcommand("all", "Run every study");
+  add_study_options(all, arguments);
+  all->add_flag("--full", arguments.full, "Those that take long, too");
+
+  std::function<int()> chosen = [&] { return run_studies(app, arguments); };
+  const studies::Progress::Style progress = studies::Progress::style_of(stderr);
+  studies::add_random_command(app, progress, chosen);
 
   std::string map;
   double x = 0, y = 0;
@@ -83,15 +108,16 @@ int main(int argc, char** argv) {
   cell->add_option("y", y, "Value on the map's y axis; left out where that is a number of arcs or elements");
 
   return apps::run(app, argc, argv, [&] {
-    if (solve->parsed()) return apps::run_solve(arguments, make_method);
+    if (list) {
+      print_list();
+      return apps::exit_solved;
+    }
+    if (app.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");
+    if (solve->parsed()) return apps::run_solve(solve_arguments, make_method);
     if (cell->parsed()) {
       fmt::print("{}", scene::write_scene(studies::cell_scene(map, x, y)));
       return apps::exit_solved;
     }
-    for (const auto& [name, study] : studies) {
-      if (app.got_subcommand(name) || app.got_subcommand("all")) study(options);
-    }
-    studies::write_index(options.output);
-    return apps::exit_solved;
+    return chosen();
   });
 }

@@ -2,10 +2,10 @@
 
 #include "scene/equilibrium_file.h"
 #include "scene/scene_file.h"
-#include "studies/chart.h"
-#include "studies/output_file.h"
-#include "studies/shape_chart.h"
-#include "studies/stopwatch.h"
+#include "studies/compare/stopwatch.h"
+#include "studies/report/chart.h"
+#include "studies/report/output_file.h"
+#include "studies/report/shape_chart.h"
 
 #include <fmt/format.h>
 

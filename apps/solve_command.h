@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fam/solve.h"
-#include "studies/method.h"
+#include "studies/methods/method.h"
 
 #include <CLI/CLI.hpp>
 

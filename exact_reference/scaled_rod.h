@@ -4,6 +4,7 @@
 #pragma once
 
 #include "exact_reference/tendon_strains.h"
+#include "scene/rod_model.h"
 #include "scene/span_facts.h"
 
 #include <optional>
@@ -11,10 +12,7 @@
 
 namespace exact_reference {
 
-enum class RodModel {
-  reissner,  // stretches and shears where the section says so
-  kirchhoff  // no stretch and no shear, whatever the section says
-};
+using scene::RodModel;
 
 // scene::Span, dimensionless. Suffix _S: section frame; _B: base frame.
 struct ScaledSpan {

@@ -12,6 +12,7 @@
 #include "fam/arc.h"
 #include "fam/tendon.h"
 
+#include "scene/rod_model.h"
 #include "scene/span.h"
 
 #include <array>
@@ -49,7 +50,7 @@ Turn<double, D> turn_in_space_or_plane(const Vector3d& w) {
   return w.tail<turns_of(D)>();
 }
 
-enum class RodModel { automatic, kirchhoff, reissner };
+using scene::RodModel;
 
 // Constants of the arcs of a span that is cut into `arcs`. set_tendons: their tension times load_factor, without
 // allocation after the first time.

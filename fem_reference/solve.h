@@ -7,14 +7,12 @@
 #pragma once
 
 #include "scene/equilibrium.h"
+#include "scene/rod_model.h"
 #include "scene/scene.h"
 
 namespace fem_reference {
 
-enum class RodModel {
-  reissner,  // stretches and shears where the section says so
-  kirchhoff  // no stretch and no shear, whatever the section says; exact, not a penalty
-};
+using scene::RodModel;  // kirchhoff: exact, not a penalty
 
 struct Options {
   int elements = 50;              // on the whole rod, shared out over the spans; each span gets at least one

@@ -3,8 +3,8 @@
 #include "exact_reference/solve.h"
 #include "fam/solve.h"
 #include "scene/scene_file.h"
-#include "studies/error_measures.h"
-#include "studies/random_scene.h"
+#include "studies/compare/error_measures.h"
+#include "studies/scenes/random_scene.h"
 #include "support.h"
 
 #include <gtest/gtest.h>

@@ -226,7 +226,7 @@ TEST(BoundaryValue, OneSegmentSolvesWithoutAllocating) {
 TEST(BoundaryValue, GatesOfStudy2) {
   const double limit_mm = 2e-6;
   for (const char* name : {"study2", "study2_gravity_y", "study2_gravity_z"}) {
-    const scene::Scene scene = scene::read_scene_file(std::string(STUDY_CASES_DIR) + "/" + name + ".json");
+    const scene::Scene scene = scene::read_scene_file(std::string(STUDY_CASES_DIR) + "/study2/" + name + ".json");
     const scene::Equilibrium exact = exact_reference::solve(scene);
     EXPECT_LT(distance_mm(solved(scene, 1e-6), exact), limit_mm) << name;
     EXPECT_GT(distance_mm(solved(support::stiffer(scene), 1e-6), exact), limit_mm) << name;

@@ -17,7 +17,7 @@ using namespace commands;
 // Every key of the contract, with both methods.
 TEST(Command, SolveJson) {
   for (const auto& [command, options] : {std::pair{fam, ""}, std::pair{fam_studies, " --method fem"}}) {
-    const Outcome outcome = run(command, "solve " + case_file("S4_follower") + " --format json" + options);
+    const Outcome outcome = run(command, "solve " + case_file("study1/S4_follower") + " --format json" + options);
     ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
     const json result = json::parse(outcome.out);
     EXPECT_EQ(result["status"], "converged");
@@ -57,27 +57,27 @@ TEST(Command, CheckValueOfTheoryThroughTheCommand) {
 }
 
 TEST(Command, TextCsvAndPicture) {
-  const Outcome text = run(fam, "solve " + case_file("P4_follower"));
+  const Outcome text = run(fam, "solve " + case_file("study1/P4_follower"));
   EXPECT_EQ(text.exit_status, 0);
   EXPECT_NE(text.out.find("tip position, mm"), std::string::npos);
   EXPECT_NE(text.out.find("reason"), std::string::npos);
 
   const fs::path svg = scratch() / "shape.svg";
-  const Outcome csv = run(fam, "solve " + case_file("P4_follower") + " --format csv --svg " + svg.string());
+  const Outcome csv = run(fam, "solve " + case_file("study1/P4_follower") + " --format csv --svg " + svg.string());
   EXPECT_EQ(csv.out.rfind("s_mm,x_mm,y_mm,z_mm,R11,", 0), 0u);
   EXPECT_GE(std::count(csv.out.begin(), csv.out.end(), '\n'), 42);
   EXPECT_EQ(contents(svg).rfind("<svg ", 0), 0u);
 }
 
 TEST(Command, UnsupportedIsExitStatusOneAndNoTip) {
-  const Outcome text = run(fam, "solve " + case_file("S4_fixed") + " --law published");
+  const Outcome text = run(fam, "solve " + case_file("study1/S4_fixed") + " --law published");
   EXPECT_EQ(text.exit_status, 1);
   EXPECT_EQ(text.out, "");
   EXPECT_NE(text.err.find("unsupported: loads[0]"), std::string::npos) << text.err;
 
   const fs::path svg = scratch() / "never.svg";
   const Outcome outcome =
-      run(fam, "solve " + case_file("S4_fixed") + " --law published --format json --svg " + svg.string());
+      run(fam, "solve " + case_file("study1/S4_fixed") + " --law published --format json --svg " + svg.string());
   EXPECT_EQ(outcome.exit_status, 1);
   const json result = json::parse(outcome.out);
   EXPECT_EQ(result["status"], "unsupported");
@@ -100,7 +100,7 @@ TEST(Command, WrongInputIsExitStatusTwoOneLineNothingPrinted) {
 }
 
 TEST(Command, WrongUsageIsExitStatusTwo) {
-  const std::string scene = case_file("P1_follower");
+  const std::string scene = case_file("study1/P1_follower");
   for (const std::string& arguments :
        {std::string(""), std::string("solve"), "solve " + scene + " --arcs 0", "solve " + scene + " --arcs 1000001",
         "solve " + scene + " --tolerance-mm 0", "solve " + scene + " --tolerance-mm nan",
@@ -132,7 +132,7 @@ TEST(Command, ACellOfAStabilityMapIsSolvedAgain) {
 }
 
 TEST(Command, UnwritablePictureIsExitStatusOne) {
-  const Outcome outcome = run(fam, "solve " + case_file("P1_follower") + " --svg /dev/null/shape.svg");
+  const Outcome outcome = run(fam, "solve " + case_file("study1/P1_follower") + " --svg /dev/null/shape.svg");
   EXPECT_EQ(outcome.exit_status, 1);
   EXPECT_EQ(outcome.out, "");
   EXPECT_NE(outcome.err.find("cannot be written"), std::string::npos);

@@ -124,13 +124,13 @@ TEST(Interrupted, AFolderThatCannotBeWrittenIsOneError) {
 TEST(Interrupted, AFullDiskIsOneError) {
   const fs::path folder = scratch() / "full";
   fs::create_directories(folder);
-  const std::string limited = "trap '' XFSZ; ulimit -f 1; exec " + fam + " solve " + case_file("P1_follower") +
+  const std::string limited = "trap '' XFSZ; ulimit -f 1; exec " + fam + " solve " + case_file("study1/P1_follower") +
                               " --svg " + (folder / "shape.svg").string();
   expect_one_error(run("sh", "-c \"" + limited + "\""), "cannot be written");
   EXPECT_TRUE(fs::is_empty(folder));
-  const Outcome outcome = run("sh", "-c \"" + fam + " solve " + case_file("P1_follower") + " >/dev/full\"");
+  const Outcome outcome = run("sh", "-c \"" + fam + " solve " + case_file("study1/P1_follower") + " >/dev/full\"");
   expect_one_error(outcome, "standard output: cannot be written");
-  EXPECT_EQ(run(fam, "solve " + case_file("P1_follower") + " --svg /dev/full").exit_status, 1);
+  EXPECT_EQ(run(fam, "solve " + case_file("study1/P1_follower") + " --svg /dev/full").exit_status, 1);
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 

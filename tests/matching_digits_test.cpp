@@ -1,5 +1,5 @@
 // The measure of the benchmarks: digits of a printed value that a computed one matches.
-#include "studies/matching_digits.h"
+#include "studies/compare/matching_digits.h"
 
 #include "exact_reference/solve.h"
 

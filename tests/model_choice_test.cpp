@@ -3,7 +3,7 @@
 #include "exact_reference/solve.h"
 #include "fam/reach.h"
 #include "fam/solve.h"
-#include "studies/promise.h"
+#include "studies/random/promise.h"
 #include "support.h"
 
 #include <gtest/gtest.h>
@@ -125,7 +125,7 @@ TEST(ModelChoice, SlenderRodsRunWithoutShear) {
   EXPECT_TRUE(shear(1e-3));
 }
 
-// The first of the random scenes of results/work_precision/promise, old and new families: whole shape and base wrench
+// The first of the random scenes of results/random/promise, old and new families: whole shape and base wrench
 // within the tolerance in all but one in a thousand of those solved, never beyond three times it, no estimate below
 // half the error, and few arcs too many.
 TEST(ModelChoice, KeepsItsPromise) {

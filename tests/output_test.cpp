@@ -1,9 +1,9 @@
 // Tables, pictures, error measures, files.
-#include "studies/chart.h"
-#include "studies/error_measures.h"
-#include "studies/output_file.h"
-#include "studies/stopwatch.h"
-#include "studies/table.h"
+#include "studies/report/chart.h"
+#include "studies/compare/error_measures.h"
+#include "studies/report/output_file.h"
+#include "studies/compare/stopwatch.h"
+#include "studies/report/table.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>

@@ -1,5 +1,5 @@
 // Random scenes: valid, the same on every machine, and over all that the scene format can say.
-#include "studies/random_scene.h"
+#include "studies/scenes/random_scene.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 #include "relations.h"
 
 #include "fam/solve.h"
-#include "studies/error_measures.h"
-#include "studies/random_scene.h"
+#include "studies/compare/error_measures.h"
+#include "studies/scenes/random_scene.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // The competitor "plain shooting" against the exact rod: right, of fourth order, without allocation, honest.
-#include "studies/rk4_shooting.h"
+#include "studies/methods/rk4_shooting.h"
 #include "allocation_counter.h"
 #include "exact_reference/solve.h"
-#include "studies/rk4_method.h"
+#include "studies/methods/rk4_method.h"
 #include "support.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include "exact_reference/elastica.h"
 #include "exact_reference/solve.h"
 #include "fam/solve.h"
-#include "studies/ablation.h"
+#include "studies/segmentation/ablation.h"
 #include "support.h"
 
 #include <gtest/gtest.h>

@@ -3,9 +3,9 @@
 #include "fam/solve.h"
 #include "fem_reference/solve.h"
 #include "scene/scene_file.h"
-#include "studies/random_study.h"
-#include "studies/rk4_method.h"
-#include "studies/verdict.h"
+#include "studies/random/random.h"
+#include "studies/methods/rk4_method.h"
+#include "studies/compare/verdict.h"
 #include "support.h"
 
 #include <gtest/gtest.h>

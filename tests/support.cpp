@@ -53,7 +53,7 @@ const std::vector<std::string>& study1_cases() {
 }
 
 scene::Scene study1_scene(const std::string& load_case, const std::string& frame) {
-  return scene::read_scene_file(std::string(STUDY_CASES_DIR) + "/" + load_case + "_" + frame + ".json");
+  return scene::read_scene_file(std::string(STUDY_CASES_DIR) + "/study1/" + load_case + "_" + frame + ".json");
 }
 
 scene::Scene uniform_rod(double length_mm, const scene::Stiffness& stiffness, std::vector<scene::Load> loads) {

@@ -7,7 +7,7 @@
 #include "fam/span_stiffness.h"
 #include "fem_reference/solve.h"
 #include "scene/span_facts.h"
-#include "studies/random_scene.h"
+#include "studies/scenes/random_scene.h"
 #include "support.h"
 
 #include <gtest/gtest.h>

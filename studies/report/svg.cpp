@@ -1,0 +1,92 @@
+#include "studies/report/svg.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace studies {
+namespace {
+
+// Two decimals, and never "-0.00".
+std::string number(double value) {
+  const double rounded = std::round(value * 100) / 100;
+  return fmt::format("{:.2f}", rounded == 0 ? 0.0 : rounded);
+}
+
+std::string list(const std::vector<Point>& points) {
+  std::string text;
+  for (const Point& p : points) text += (text.empty() ? "" : " ") + number(p.x) + "," + number(p.y);
+  return text;
+}
+
+std::string attributes(const Stroke& stroke) {
+  std::string text = fmt::format("stroke=\"{}\" stroke-width=\"{}\"", stroke.colour, stroke.width);
+  if (!stroke.dash.empty()) text += fmt::format(" stroke-dasharray=\"{}\"", stroke.dash);
+  return text;
+}
+
+std::string escaped(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '&') safe += "&amp;";
+    else if (c == '<') safe += "&lt;";
+    else if (c == '>') safe += "&gt;";
+    else safe += c;
+  }
+  return safe;
+}
+
+}  // namespace
+
+Svg::Svg(double width, double height) : width_(width), height_(height) {}
+
+void Svg::line(Point from, Point to, const Stroke& stroke) {
+  body_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" {}/>\n", number(from.x), number(from.y),
+                       number(to.x), number(to.y), attributes(stroke));
+}
+
+void Svg::polyline(const std::vector<Point>& points, const Stroke& stroke) {
+  body_ += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke-linejoin=\"round\" {}/>\n", list(points),
+                       attributes(stroke));
+}
+
+void Svg::polygon(const std::vector<Point>& points, const std::string& fill) {
+  body_ += fmt::format("<polygon points=\"{}\" fill=\"{}\"/>\n", list(points), fill);
+}
+
+void Svg::circle(Point centre, double radius, const std::string& fill) {
+  body_ += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\"/>\n", number(centre.x), number(centre.y),
+                       number(radius), fill);
+}
+
+void Svg::cross(Point centre, double radius, const Stroke& stroke) {
+  line({centre.x - radius, centre.y - radius}, {centre.x + radius, centre.y + radius}, stroke);
+  line({centre.x - radius, centre.y + radius}, {centre.x + radius, centre.y - radius}, stroke);
+}
+
+void Svg::rectangle(Point corner, double width, double height, const std::string& fill) {
+  body_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", number(corner.x),
+                       number(corner.y), number(width), number(height), fill);
+}
+
+void Svg::text(Point at, const std::string& text, Anchor anchor, double size, const std::string& colour,
+               double rotation_deg) {
+  const char* anchors[] = {"start", "middle", "end"};
+  std::string turn;
+  if (rotation_deg != 0) {
+    turn = fmt::format(" transform=\"rotate({} {} {})\"", number(rotation_deg), number(at.x), number(at.y));
+  }
+  body_ +=
+      fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\" font-size=\"{}\" fill=\"{}\"{}>{}</text>\n", number(at.x),
+                  number(at.y), anchors[static_cast<int>(anchor)], size, colour, turn, escaped(text));
+}
+
+std::string Svg::str() const {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
+      "font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\">\n<rect width=\"{0}\" height=\"{1}\" "
+      "fill=\"white\"/>\n{2}</svg>\n",
+      number(width_), number(height_), body_);
+}
+
+}  // namespace studies

@@ -1,0 +1,31 @@
+#include "studies/scenes/cases.h"
+
+#include "scene/scene_file.h"
+
+namespace studies {
+
+scene::Scene read_case(const std::filesystem::path& cases, const std::string& name) {
+  return scene::read_scene_file((cases / (name + ".json")).string());
+}
+
+std::vector<std::string> study1_cases() {
+  std::vector<std::string> cases;
+  for (const char set : {'P', 'S'}) {
+    for (int i = 1; i <= 8; ++i) cases.push_back(set + std::to_string(i));
+  }
+  return cases;
+}
+
+std::vector<std::string> study1_cases(bool planar) {
+  std::vector<std::string> cases;
+  for (const std::string& load_case : study1_cases()) {
+    if (is_planar(load_case) == planar) cases.push_back(load_case);
+  }
+  return cases;
+}
+
+bool is_planar(const std::string& load_case) {
+  return load_case[0] == 'P';
+}
+
+}  // namespace studies

@@ -1,0 +1,20 @@
+// The scene files of studies/cases and the names of Study I's load cases.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace studies {
+
+// A scene of the folder by its path without ending ("study1/P4_follower").
+scene::Scene read_case(const std::filesystem::path& cases, const std::string& name);
+
+// P1..P8 (planar) and S1..S8 (spatial); files study1/P1_follower.json, study1/P1_fixed.json, ...
+std::vector<std::string> study1_cases();
+std::vector<std::string> study1_cases(bool planar);
+bool is_planar(const std::string& load_case);
+
+}  // namespace studies

@@ -1,0 +1,265 @@
+#include "studies/segmentation/ablation.h"
+
+#include "exact_reference/elastica.h"
+
+#include <fmt/format.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_min.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+namespace studies {
+namespace {
+
+const std::vector<int> sweep_arcs = {1, 2, 3, 4, 6, 8, 12, 16, 20, 30, 50, 100, 200, 500, 1000, 2000, 5000};
+constexpr double length_mm = 40, bending_Nmm2 = 750, force_N = -1.5, moment_Nmm = 60;  // P4
+
+struct MarchResult {
+  Eigen::Vector2d tip_mm;
+  double drift;                                      // of |F|, relative
+  std::vector<double> angle_errors_rad, angles_rad;  // tip to clamp
+};
+
+// The wrench carried through given angles in double and without cancellation.
+struct Shadow {
+  double fx = 0, fy = force_N, m = moment_Nmm;
+
+  void carry(double angle, double arc_mm, bool straight) {
+    const fam::ScrewCoefficients k = fam::screw_coefficients(angle * angle);
+    const double sine = k.A * angle, cosine = 1 - k.B * angle * angle, x = fx;
+    if (!straight) {
+      fx = cosine * x - sine * fy;
+      fy = sine * x + cosine * fy;
+    }
+    m += arc_mm * (k.A * fy - k.B * angle * fx);
+  }
+};
+
+// The tip from each arc's end in its own frame, clamp to tip.
+template <class T>
+Eigen::Vector2d summed_up(const std::vector<T>& angle, const std::vector<T>& px, const std::vector<T>& py) {
+  T x = 0, y = 0, turned = 0;
+  for (std::size_t i = 0; i < angle.size(); ++i) {
+    const T c = static_cast<T>(std::cos(static_cast<long double>(turned)));
+    const T s = static_cast<T>(std::sin(static_cast<long double>(turned)));
+    x += c * px[i] - s * py[i];
+    y += s * px[i] + c * py[i];
+    turned += angle[i];
+  }
+  return {static_cast<double>(x), static_cast<double>(y)};
+}
+
+// The same from the angles alone, tip to clamp, in double and without cancellation.
+Eigen::Vector2d soundly_summed_up(const std::vector<double>& tip_to_clamp, double arc_mm) {
+  const std::vector<double> angles(tip_to_clamp.rbegin(), tip_to_clamp.rend());
+  std::vector<double> px, py;
+  for (const double angle : angles) {
+    const fam::ScrewCoefficients k = fam::screw_coefficients(angle * angle);
+    px.push_back(arc_mm * k.A);
+    py.push_back(arc_mm * k.B * angle);
+  }
+  return summed_up<double>(angles, px, py);
+}
+
+// From tip to clamp, then the pose from clamp to tip, all in T.
+template <class T>
+MarchResult march(const Weakness& weakness, int arcs) {
+  static const Weakness sound;
+  const T h = static_cast<T>(length_mm / arcs), compliance = h / static_cast<T>(bending_Nmm2);
+  T fx = 0, fy = static_cast<T>(force_N), m = static_cast<T>(moment_Nmm);
+  MarchResult result;
+  Shadow shadow;
+  std::vector<T> angle(static_cast<std::size_t>(arcs)), px(angle.size()), py(angle.size());
+  for (std::size_t i = angle.size(); i-- > 0;) {
+    const PlanarArc<T> arc{m * compliance, fx * h * compliance, fy * h * compliance, weakness};
+    const T t = angle[i] = arc.angle(static_cast<T>(arcs));
+    const PlanarArc<double> exactly{static_cast<double>(m) * length_mm / arcs / bending_Nmm2,
+                                    static_cast<double>(fx) * length_mm / arcs * length_mm / arcs / bending_Nmm2,
+                                    static_cast<double>(fy) * length_mm / arcs * length_mm / arcs / bending_Nmm2,
+                                    sound};
+    result.angle_errors_rad.push_back(static_cast<double>(t) - exactly.angle(arcs));
+    result.angles_rad.push_back(static_cast<double>(t));
+    const auto k = arc.forms(t);
+    px[i] = h * k.A;
+    py[i] = h * k.B * t;
+    const T nx = weakness.straight_to_next ? fx : k.cosine * fx - k.sine * fy;
+    const T ny = weakness.straight_to_next ? fy : k.sine * fx + k.cosine * fy;
+    fx = nx;
+    fy = ny;
+    m += px[i] * fy - py[i] * fx;
+    shadow.carry(static_cast<double>(t), length_mm / arcs, weakness.straight_to_next);
+  }
+  result.tip_mm = summed_up<T>(angle, px, py);
+  result.drift = static_cast<double>(m) / shadow.m - 1;
+  return result;
+}
+
+MarchResult march_in(const Weakness& weakness, int arcs) {
+  return weakness.single_precision ? march<float>(weakness, arcs) : march<double>(weakness, arcs);
+}
+
+std::vector<AblationRow> variants() {
+  const Search golden = Search::golden, brent = Search::brent, bisection = Search::bisection;
+  std::vector<AblationRow> rows = {
+      {"sound", "sound: double, root of dPi/dtheta", {}, {}},
+      {"alone", "single precision", {.single_precision = true}, {}},
+      {"alone", "unsafe forms", {.unsafe_forms = true}, {}},
+      {"alone", "golden section", {.search = golden}, {}},
+      {"alone", "GSL Brent", {.search = brent}, {}},
+      {"alone", "radius unknown, golden section", {.search = golden, .radius_unknown = true}, {}},
+      {"alone", "force not turned in the arc", {.straight_in_arc = true}, {}},
+      {"alone", "force not turned to the next arc", {.straight_to_next = true}, {}},
+      {"combined", "single, unsafe", {.single_precision = true, .unsafe_forms = true}, {}},
+      {"combined", "golden, expanded Pi", {.expanded = true, .search = golden}, {}},
+      {"combined", "single, golden", {.single_precision = true, .search = golden}, {}},
+      {"combined", "single, GSL Brent", {.single_precision = true, .search = brent}, {}},
+      {"combined", "single, unsafe, golden", {.single_precision = true, .unsafe_forms = true, .search = golden}, {}},
+      {"combined", "single, golden, expanded Pi", {.single_precision = true, .expanded = true, .search = golden}, {}},
+      {"combined",
+       "single, golden, radius unknown",
+       {.single_precision = true, .search = golden, .radius_unknown = true},
+       {}},
+      {"combined",
+       "single, unsafe, golden, radius unknown",
+       {.single_precision = true, .unsafe_forms = true, .search = golden, .radius_unknown = true},
+       {}},
+      {"combined",
+       "single, unsafe, golden 1e-03",
+       {.single_precision = true, .unsafe_forms = true, .search = golden, .tolerance = 1e-3},
+       {}},
+      {"combined",
+       "single, unsafe, golden 1e-03, force not turned to the next arc",
+       {.single_precision = true, .unsafe_forms = true, .search = golden, .tolerance = 1e-3, .straight_to_next = true},
+       {}}};
+  const auto alone_and_combined = static_cast<long>(rows.size());
+  for (const double tolerance : {1e-2, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10}) {
+    const std::string text = fmt::format("{:.0e}", tolerance);
+    rows.push_back({"tolerance", "golden section " + text, {.search = golden, .tolerance = tolerance}, {}});
+    rows.push_back({"tolerance", "Brent " + text, {.search = brent, .tolerance = tolerance}, {}});
+    rows.push_back({"tolerance", "bisection " + text, {.search = bisection, .tolerance = tolerance}, {}});
+    rows.push_back({"tolerance", "secant root " + text, {.tolerance = tolerance}, {}});
+    rows.push_back({"tolerance",
+                    "radius, golden " + text,
+                    {.search = golden, .tolerance = tolerance, .radius_unknown = true},
+                    {}});
+  }
+  std::stable_sort(rows.begin() + alone_and_combined, rows.end(),
+                   [](const AblationRow& a, const AblationRow& b) { return a.name[0] < b.name[0]; });
+  return rows;
+}
+
+Cancellation cancellation(int arcs) {
+  const double t = 2.3 / arcs, exact = fam::screw_coefficients(t * t).B;
+  static const Weakness unsafe{.unsafe_forms = true};
+  const double in_single = PlanarArc<float>{0, 0, 0, unsafe}.forms(static_cast<float>(t)).B;
+  const double in_double = PlanarArc<double>{0, 0, 0, unsafe}.forms(t).B;
+  return {arcs, t, std::abs(in_single / exact - 1), std::abs(in_double / exact - 1)};
+}
+
+AblationPoint weakened_point(const Weakness& weakness, int arcs, const Eigen::Vector2d& fe_tip_mm) {
+  const MarchResult result = march_in(weakness, arcs);
+  static const Eigen::Vector2d exact =
+      exact_reference::Elastica::with_follower_load({length_mm, bending_Nmm2, {0, force_N}, moment_Nmm})
+          .tip()
+          .position_B_mm;
+  AblationPoint point{arcs,         (result.tip_mm - exact).norm(),    0, 0, 0, 0,
+                      result.drift, (result.tip_mm - fe_tip_mm).norm()};
+  for (const double error : result.angle_errors_rad) point.bias_rad += error;
+  for (std::size_t i = 0; i < result.angles_rad.size(); ++i) {
+    const double error = result.angle_errors_rad[i];
+    point.scatter_rad += std::pow(error - point.bias_rad / arcs, 2);
+    point.largest_relative = std::max(point.largest_relative, std::abs(error / result.angles_rad[i]));
+  }
+  point.scatter_rad = std::sqrt(point.scatter_rad);
+  point.sums_mm = (result.tip_mm - soundly_summed_up(result.angles_rad, length_mm / arcs)).norm();
+  return point;
+}
+
+AblationRow swept(AblationRow row, const Eigen::Vector2d& fe_tip_mm) {
+  for (const int arcs : sweep_arcs) row.points.push_back(weakened_point(row.weakness, arcs, fe_tip_mm));
+  return row;
+}
+
+void count(Census& census, double tolerance, const Trend& t) {
+  ++census.curves;
+  census.rise += t.rises();
+  census.under_3_mm += t.under_3_mm();
+  census.minimum_near_12 += t.minimum_near_12();
+  if (!(t.rises() && t.under_3_mm() && t.minimum_near_12())) return;
+  if (census.all_three++ == 0) census.smallest_all = tolerance;
+  census.largest_all = tolerance;
+}
+
+std::vector<Census> take_censuses(const Eigen::Vector2d& fe_tip_mm) {
+  constexpr int curves = 41;
+  std::vector<Census> censuses;
+  for (const auto& [search, name] : {std::pair{Search::golden, "golden section"}, {Search::bisection, "bisection"}}) {
+    Census exact{name, "exact", 0, 0, 0, 0, 0, 0, 0}, fe{name, "fe", 0, 0, 0, 0, 0, 0, 0};
+    for (int i = 0; i < curves; ++i) {
+      const double tolerance = std::pow(10, -4 + 2. * i / (curves - 1));
+      const AblationRow row = swept({"", "", {.search = search, .tolerance = tolerance}, {}}, fe_tip_mm);
+      count(exact, tolerance, trend(row, &AblationPoint::error_mm));
+      count(fe, tolerance, trend(row, &AblationPoint::fe_mm));
+    }
+    censuses.push_back(exact);
+    censuses.push_back(fe);
+  }
+  return censuses;
+}
+
+}  // namespace
+
+double brent_minimum(const std::function<double(double)>& f, double low, double high, double tolerance) {
+  static const bool quiet = gsl_set_error_handler_off() != nullptr;
+  (void)quiet;
+  gsl_function function{[](double x, void* p) { return (*static_cast<const std::function<double(double)>*>(p))(x); },
+                        const_cast<std::function<double(double)>*>(&f)};
+  const std::unique_ptr<gsl_min_fminimizer, void (*)(gsl_min_fminimizer*)> state(
+      gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent), gsl_min_fminimizer_free);
+  if (gsl_min_fminimizer_set(state.get(), &function, (low + high) / 2, low, high) != GSL_SUCCESS) {
+    return std::numeric_limits<double>::quiet_NaN();  // the straight arc is not below both ends
+  }
+  for (int i = 0; i < 100; ++i) {
+    if (gsl_min_fminimizer_iterate(state.get()) != GSL_SUCCESS) break;
+    const double a = gsl_min_fminimizer_x_lower(state.get()), b = gsl_min_fminimizer_x_upper(state.get());
+    if (tolerance > 0 && gsl_min_test_interval(a, b, tolerance, 0) == GSL_SUCCESS) break;
+  }
+  return gsl_min_fminimizer_x_minimum(state.get());
+}
+
+Eigen::Vector2d weakened_tip_mm(const Weakness& weakness, int arcs) {
+  return march_in(weakness, arcs).tip_mm;
+}
+
+const AblationRow& AblationData::row(const std::string& name) const {
+  const auto found = std::find_if(rows.begin(), rows.end(), [&](const AblationRow& r) { return r.name == name; });
+  if (found == rows.end()) throw std::logic_error("no ablation " + name);
+  return *found;
+}
+
+AblationData run_ablation(const Eigen::Vector2d& fe_tip_mm) {
+  AblationData data;
+  data.rows = variants();
+  for (AblationRow& row : data.rows) row = swept(row, fe_tip_mm);
+  data.censuses = take_censuses(fe_tip_mm);
+  for (const int arcs : {1, 12, 100, 500, 1000, 5000}) data.cancellations.push_back(cancellation(arcs));
+  return data;
+}
+
+Trend trend(const AblationRow& row, double AblationPoint::*error) {
+  Trend result;
+  result.minimum_mm = INFINITY;
+  for (const AblationPoint& p : row.points) {
+    const double value = p.*error;
+    if (value < result.minimum_mm) result.minimum_mm = value, result.minimum_arcs = p.arcs;
+    if (p.arcs >= 12 && p.arcs <= 500) result.largest_12_to_500_mm = std::max(result.largest_12_to_500_mm, value);
+    if (p.arcs == 12) result.at_12_mm = value;
+    if (p.arcs == 500) result.at_500_mm = value;
+    if (p.arcs == 5000) result.at_5000_mm = value;
+  }
+  return result;
+}
+
+}  // namespace studies
