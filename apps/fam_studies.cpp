@@ -1,41 +1,58 @@
 // fam-studies: everything that compares. `fam-studies --help`, `fam-studies --list` and docs/commands.md say more.
 #include "apps/solve_command.h"
 #include "scene/scene_file.h"
-#include "studies/methods/exact_method.h"
 #include "studies/methods/fam_method.h"
-#include "studies/methods/fem_method.h"
-#include "studies/methods/rk4_method.h"
+#include "studies/methods/registry.h"
 #include "studies/random/command.h"
 #include "studies/registry.h"
 #include "studies/stability/maps.h"
 
 #include <fmt/format.h>
 
+#include <array>
+
 namespace {
 
-std::unique_ptr<studies::Method> make_method(const apps::SolveArguments& arguments) {
+// --method fam: the options of `fam solve`; fem: with --order; else a key of the registry.
+struct MethodArguments {
+  int order = 2;
+  std::map<std::string, int> counts;  // by what a row counts
+};
+
+std::unique_ptr<studies::Method> make_method(const apps::SolveArguments& arguments, const MethodArguments& of_method) {
   if (arguments.method == "fam") return studies::fam_method(arguments.fam);
-  const bool kirchhoff = arguments.fam.model == fam::RodModel::kirchhoff;
-  if (arguments.method == "exact") {
-    exact_reference::Options options;
-    if (kirchhoff) options.model = exact_reference::RodModel::kirchhoff;
-    return studies::exact_method(options);
+  const std::array<std::string, 3> by_order = {"fe_linear", "fe", "fe_cubic"};
+  const bool by_elements = arguments.method == "fem";
+  const studies::MethodRow& row =
+      studies::method_row(by_elements ? by_order.at(static_cast<std::size_t>(of_method.order - 1)) : arguments.method);
+  studies::Request request;
+  request.model = arguments.fam.model;
+  if (const auto count = of_method.counts.find(row.counts); count != of_method.counts.end()) {
+    request.count = count->second;
+  } else if (row.counts == "arc") {
+    request.count = arguments.fam.arcs;
   }
-  if (arguments.method == "rk4") return studies::rk4_method({arguments.steps, !kirchhoff});
-  fem_reference::Options options;
-  options.elements = arguments.elements;
-  options.order = arguments.order;
-  if (kirchhoff) options.model = fem_reference::RodModel::kirchhoff;
-  return studies::fem_method(options);
+  return row(request);
 }
 
-void add_method_options(CLI::App* solve, apps::SolveArguments& arguments) {
-  solve->add_option("--method", arguments.method, "fam, fem, exact or rk4 (plain shooting)")
-      ->check(CLI::IsMember({"fam", "fem", "exact", "rk4"}));
-  solve->add_option("--elements", arguments.elements, "fem: number of elements (default: 50)")
-      ->check(CLI::Range(1, 100'000));
-  solve->add_option("--steps", arguments.steps, "rk4: number of steps (default: 50)")->check(CLI::Range(1, 100'000));
-  solve->add_option("--order", arguments.order, "fem: order of the elements (default: 2)")->check(CLI::Range(1, 3));
+void add_method_options(CLI::App* solve, apps::SolveArguments& arguments, MethodArguments& of_method) {
+  std::vector<std::string> keys = {"fem"};
+  std::map<std::string, std::string> counts;
+  for (const studies::MethodRow& row : studies::all_methods()) {
+    keys.push_back(row.key);
+    if (row.counts != "arc" && !row.counts.empty())
+      counts[row.counts] += (counts[row.counts].empty() ? "" : ", ") + row.key;
+  }
+  solve->add_option("--method", arguments.method, "fam, fem, exact, rk4 (plain shooting) or another key")
+      ->check(CLI::IsMember(keys));
+  for (const auto& [what, of] : counts) {
+    solve
+        ->add_option_function<int>(
+            "--" + what + "s", [&of_method, what = what](const int& n) { of_method.counts[what] = n; },
+            of + ": number of " + what + "s (default: 50)")
+        ->check(CLI::Range(1, 100'000));
+  }
+  solve->add_option("--order", of_method.order, "fem: order of the elements (default: 2)")->check(CLI::Range(1, 3));
 }
 
 struct StudyArguments {
@@ -83,7 +100,8 @@ int main(int argc, char** argv) {
   app.add_flag("--list", list, "Print the studies, what each answers and how long it takes");
   apps::SolveArguments solve_arguments;
   CLI::App* solve = apps::add_solve_command(app, solve_arguments);
-  add_method_options(solve, solve_arguments);
+  MethodArguments of_method;
+  add_method_options(solve, solve_arguments, of_method);
 
   StudyArguments arguments;
   arguments.options.cases = STUDIES_DIR "/cases";
@@ -113,7 +131,8 @@ int main(int argc, char** argv) {
       return apps::exit_solved;
     }
     if (app.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");
-    if (solve->parsed()) return apps::run_solve(solve_arguments, make_method);
+    if (solve->parsed())
+      return apps::run_solve(solve_arguments, [&](const apps::SolveArguments& a) { return make_method(a, of_method); });
     if (cell->parsed()) {
       fmt::print("{}", scene::write_scene(studies::cell_scene(map, x, y)));
       return apps::exit_solved;

@@ -17,9 +17,6 @@ struct SolveArguments {
   std::string scene_path;
   std::string method = "fam";
   fam::Options fam;
-  int elements = 50;
-  int steps = 50;
-  int order = 2;
   std::string format = "text";
   std::string svg_path;
 };

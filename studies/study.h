@@ -1,6 +1,7 @@
 // What every study driver takes.
 #pragma once
 
+#include "studies/compare/stopwatch.h"
 #include "studies/report/progress.h"
 
 #include <filesystem>
@@ -16,5 +17,10 @@ struct StudyOptions {
   bool quick = false;                        // the smallest setting that still runs every line
   Progress::Style progress = Progress::Style::lines;
 };
+
+// The time of a solve; with --quick one run, of which nothing is claimed.
+inline Timing time_of(const StudyOptions& options, const std::function<void()>& work, double budget_s = 0.05) {
+  return options.quick ? measure(work, 0, 1) : measure(work, budget_s);
+}
 
 }  // namespace studies

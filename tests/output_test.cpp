@@ -78,7 +78,7 @@ TEST(Chart, EqualScale) {
 }
 
 TEST(Svg, IsDeterministicAndEscapes) {
-  Svg svg(10, 10);
+  Svg svg(10, 10, "title", "description");
   svg.text({1, -0.001}, "a < b & c");
   svg.cross({5, 5}, 2, {});
   EXPECT_NE(svg.str().find("y=\"0.00\""), std::string::npos);

@@ -157,8 +157,7 @@ BenchmarkResult run(const Benchmark& benchmark, const StudyOptions& options) {
   const scene::Scene scene = family_of(benchmark, family).scene_at(parameter);
   for (std::size_t m = 0; m < methods.size(); ++m) {
     const bool solved = solves.at(family, parameter)[m].converged();
-    const double budget_s = options.quick ? 0 : 0.3;
-    result.times.push_back(solved ? measure(methods[m]->bare_solve(scene), budget_s, options.quick ? 1 : 3) : Timing{});
+    result.times.push_back(solved ? time_of(options, methods[m]->bare_solve(scene), 0.3) : Timing{});
   }
   return result;
 }

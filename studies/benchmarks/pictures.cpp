@@ -14,7 +14,6 @@ bool failed_anywhere(const BenchmarkResult& result, std::size_t method) {
 
 // The key above the panels: one line for the methods, one for the sources.
 void draw_key(Svg& svg, const BenchmarkResult& result) {
-  svg.text({26, 24}, result.benchmark.title, Anchor::start, 15);
   double x = 30;
   const auto entry = [&](double y, const std::string& text, const std::string& text_colour) {
     svg.text({x + 12, y + 4}, text, Anchor::start, 12, text_colour);
@@ -115,8 +114,8 @@ Point name_place(const std::vector<Point>& points, const Axis& y) {
 std::string history_picture(const BenchmarkResult& result, const std::vector<View>& views) {
   constexpr double width = 400, height = 330, gap = 130, top = 92;
   const double names = 20 + 8 * static_cast<double>(views[0].families[0].second.size());
-  Svg svg(std::max(700.0, 80 + static_cast<double>(views.size()) * (width + gap) - gap + names + 20),
-          top + height + 50);
+  Svg svg(std::max(700.0, 80 + static_cast<double>(views.size()) * (width + gap) - gap + names + 20), top + height + 50,
+          result.benchmark.title, result.benchmark.title);
   draw_key(svg, result);
   for (std::size_t v = 0; v < views.size(); ++v) {
     const View& view = views[v];

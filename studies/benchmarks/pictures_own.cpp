@@ -30,8 +30,8 @@ std::string source_colour(const BenchmarkResult& result, const std::string& key)
 
 std::string shapes_picture(const BenchmarkResult& result) {
   Axis x{"x, cm", -22, 105, false}, y{"y, cm (the published loads push to −y: mirrored)", -60, 85, false};
-  Svg svg(620, 650);
-  svg.text({26, 24}, "Follower force: shapes of Argyris & Symeonidis 1981", Anchor::start, 15);
+  Svg svg(620, 650, "Follower force: shapes of Argyris & Symeonidis 1981",
+          "Follower force: shapes of Argyris & Symeonidis 1981");
   svg.text({26, 44}, "lines: exact, EI = 3.5e7 N cm²; dots: digitised from the published figure", Anchor::start, 12,
            colour::grey);
   equal_scale(x, y, 500, 525);
@@ -58,9 +58,8 @@ std::string shapes_picture(const BenchmarkResult& result) {
 
 // The published tips at F = 600, and the exact ones for torsion constants between the two.
 std::string bend45_picture(const BenchmarkResult& result) {
-  Svg svg(860, 600);
-  svg.text({26, 24}, "45° bend, F = 600: where the published tips lie, and where the torsion constant puts them",
-           Anchor::start, 15);
+  Svg svg(860, 600, "45° bend, F = 600: where the published tips lie, and where the torsion constant puts them",
+          "45° bend, F = 600: where the published tips lie, and where the torsion constant puts them");
   svg.text({26, 44},
            "line: exact, J from 0.141 to 1/6; squares: FE; triangles: FAM (blue cross: no value); dots: published; the "
            "tip moves 60",
@@ -95,9 +94,8 @@ std::string bend45_picture(const BenchmarkResult& result) {
 }
 
 std::string critical_picture(const BenchmarkResult& result) {
-  Svg svg(860, 430);
-  svg.text({26, 24}, "Critical loads: the exact reference's `stable` below and above the classical load", Anchor::start,
-           15);
+  Svg svg(860, 430, "Critical loads: the exact reference's `stable` below and above the classical load",
+          "Critical loads: the exact reference's `stable` below and above the classical load");
   svg.text({26, 44}, "blue: stable; orange: not stable; grey cross: not decided", Anchor::start, 12, colour::grey);
   for (const bool above : {false, true}) {
     const double left = above ? 500 : 160;

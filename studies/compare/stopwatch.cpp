@@ -1,6 +1,7 @@
 #include "studies/compare/stopwatch.h"
 
-#include <algorithm>
+#include "studies/compare/error_measures.h"
+
 #include <chrono>
 #include <vector>
 
@@ -16,7 +17,8 @@ double seconds_for(const std::function<void()>& work, int batch) {
 }  // namespace
 
 Timing measure(const std::function<void()>& work, double budget_s, int fewest_repeats) {
-  work();
+  const double cold = seconds_for(work, 1);
+  if (fewest_repeats > 1 && cold > long_work_s) fewest_repeats = 1, budget_s = 0;
   constexpr double shortest_batch_s = 20e-6;  // against a clock step of some 30 ns
   int batch = 1;
   double once = seconds_for(work, batch);
@@ -24,18 +26,15 @@ Timing measure(const std::function<void()>& work, double budget_s, int fewest_re
     batch *= 2;
     once = seconds_for(work, batch);
   }
-  std::vector<double> samples;
-  double spent = 0;
-  while (static_cast<int>(samples.size()) < fewest_repeats || (spent < budget_s && samples.size() < 10'000)) {
+  std::vector<double> samples_us = {1e6 * once / batch};
+  double spent = once;
+  while (static_cast<int>(samples_us.size()) < fewest_repeats || (spent < budget_s && samples_us.size() < 10'000)) {
     const double seconds = seconds_for(work, batch);
     spent += seconds;
-    samples.push_back(1e6 * seconds / batch);
+    samples_us.push_back(1e6 * seconds / batch);
   }
-  std::sort(samples.begin(), samples.end());
-  const auto quantile = [&](double q) {
-    return samples[static_cast<std::size_t>(q * static_cast<double>(samples.size() - 1))];
-  };
-  return {quantile(0.5), quantile(0.25), quantile(0.75), static_cast<int>(samples.size())};
+  return {quantile(samples_us, 0.5), quantile(samples_us, 0.25), quantile(samples_us, 0.75),
+          static_cast<int>(samples_us.size())};
 }
 
 }  // namespace studies

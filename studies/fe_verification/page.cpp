@@ -189,9 +189,8 @@ void draw(Svg& svg, const FeVerification& data, const std::string& rod, const st
 }
 
 std::string convergence_picture(const FeVerification& data) {
-  Svg svg(1130, 450);
-  svg.text({26, 24}, "Finite elements against the exact rod: full lines reduced, dashed full integration",
-           Anchor::start, 15);
+  Svg svg(1130, 450, "Finite elements against the exact rod: full lines reduced, dashed full integration",
+          "Finite elements against the exact rod: full lines reduced, dashed full integration");
   draw(svg, data, "thick", "S4, fixed loads, real section", 80);
   draw(svg, data, "thin", "the same loads, EI/(kGA L²) = 1e-6", 640);
   return svg.str();

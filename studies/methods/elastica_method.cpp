@@ -48,10 +48,15 @@ std::optional<Elastica> elastica(const PlanarScene& planar) {
   return Elastica::with_follower_load(planar.cantilever);
 }
 
-scene::Station station(const Elastica& curve, double s_mm) {
-  const exact_reference::PlanarPose pose = curve.at(s_mm);
+// The tip's load in the base frame is the force all along the rod; its moment grows towards the clamp.
+scene::Station station(const Elastica& curve, const PlanarScene& planar, double s_mm) {
+  const exact_reference::PlanarPose pose = curve.at(s_mm), tip = curve.tip();
+  const Eigen::Rotation2Dd tip_BS(planar.fixed_force ? 0 : tip.angle_rad);
+  const Eigen::Vector2d force_B = tip_BS * planar.cantilever.tip_force_N, arm = tip.position_B_mm - pose.position_B_mm;
+  const double moment = planar.cantilever.tip_moment_Nmm + arm[0] * force_B[1] - arm[1] * force_B[0];
   const Eigen::Matrix3d rotation = Eigen::AngleAxisd(pose.angle_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  return {s_mm, {rotation, {pose.position_B_mm[0], pose.position_B_mm[1], 0}}};
+  return {
+      s_mm, {rotation, {pose.position_B_mm[0], pose.position_B_mm[1], 0}}, {force_B[0], force_B[1], 0}, {0, 0, moment}};
 }
 
 class ElasticaMethod : public Method {
@@ -73,7 +78,7 @@ class ElasticaMethod : public Method {
       return result;
     }
     result.status = scene::Status::converged;
-    result.stations = {station(*curve, 0), station(*curve, planar->cantilever.length_mm)};
+    result.stations = {station(*curve, *planar, 0), station(*curve, *planar, planar->cantilever.length_mm)};
     result.tip_angle_rad = curve->tip().angle_rad;
     return result;
   }

@@ -6,19 +6,19 @@
 
 namespace studies {
 
-// With a fixed number of arcs the bare solve is the march; with a tolerance it is all of fam::solve, choice included.
 class FamMethod : public Method {
  public:
-  explicit FamMethod(const fam::Options& options) : options_(options) {}
+  FamMethod(const fam::Options& options, double tolerance_over_L)
+      : options_(options), tolerance_over_L_(tolerance_over_L) {}
 
   std::string name() const override { return std::string("fam ") + fam::name(options_.law); }
   std::string resolution() const override {
     return options_.arcs > 0 ? std::to_string(options_.arcs) + " arcs" : "automatic";
   }
-  scene::Equilibrium solve(const scene::Scene& scene) const override { return fam::solve(scene, options_); }
+  scene::Equilibrium solve(const scene::Scene& scene) const override { return fam::solve(scene, options_for(scene)); }
 
   std::function<void()> bare_solve(const scene::Scene& scene) const override {
-    if (options_.arcs == 0) return [scene, options = options_] { fam::solve(scene, options); };
+    if (options_.arcs == 0) return [scene, options = options_for(scene)] { fam::solve(scene, options); };
     std::string reason;
     std::optional<fam::Prepared> solver = fam::prepare(scene, options_, reason);
     if (!solver) return [] {};
@@ -26,11 +26,20 @@ class FamMethod : public Method {
   }
 
  private:
+  fam::Options options_for(const scene::Scene& scene) const {
+    fam::Options options = options_;
+    if (tolerance_over_L_ > 0) options.tolerance_mm = tolerance_over_L_ * scene::length_mm(scene);
+    return options;
+  }
+
   fam::Options options_;
+  double tolerance_over_L_;
 };
 
-inline std::unique_ptr<Method> fam_method(const fam::Options& options) {
-  return std::make_unique<FamMethod>(options);
+// With a fixed number of arcs the bare solve is the march; with a tolerance it is all of fam::solve, choice included.
+// tolerance_over_L > 0: in place of options.tolerance_mm, for each scene its own length's.
+inline std::unique_ptr<Method> fam_method(const fam::Options& options, double tolerance_over_L = 0) {
+  return std::make_unique<FamMethod>(options, tolerance_over_L);
 }
 
 }  // namespace studies

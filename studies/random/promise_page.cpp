@@ -15,10 +15,11 @@ namespace studies {
 namespace {
 
 std::string chart(const std::vector<Promise>& promises) {
-  Svg svg(660, 520);
+  Svg svg(660, 520, "Error of the automatic choice over the error asked for",
+          "Error of the automatic choice over the error asked for");
   Panel panel(svg, {80, 40}, 540, 410, {"tolerance / L", 3e-9, 3e-2, true},
               {"largest error along the rod / tolerance", 1e-6, 10, true});
-  panel.frame("Error of the automatic choice over the error that was asked for");
+  panel.frame();
   std::vector<Point> kept, broken;
   for (const Promise& promise : promises) {
     if (!promise.solved()) continue;

@@ -8,7 +8,16 @@
 namespace studies {
 namespace {
 
-constexpr double name_gap_px = 13;
+// Where a name of this width may stand from its point: beside it, above, below, and farther and farther away.
+std::vector<Point> offsets_of(double width) {
+  std::vector<Point> offsets;
+  for (const double up : {4.0, -8.0, 16.0, -20.0, 28.0, -32.0, 44.0, -48.0, 60.0, -64.0, 90.0, -94.0, 130.0, -134.0}) {
+    for (const double right : {7.0, -width - 7, -width / 2, 30.0, -width - 30, 60.0, -width - 60}) {
+      offsets.push_back({right, up});
+    }
+  }
+  return offsets;
+}
 
 double fraction(const Axis& axis, double value) {
   if (!axis.logarithmic) return (value - axis.low) / (axis.high - axis.low);
@@ -82,14 +91,23 @@ void Panel::curve(const std::vector<Point>& data, const Stroke& stroke) {
   std::vector<Point> points(data.size());
   std::transform(data.begin(), data.end(), points.begin(), [this](const Point& p) { return at(p); });
   svg_.polyline(points, stroke);
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const double dx = points[i + 1].x - points[i].x, dy = points[i + 1].y - points[i].y;
+    const int pieces = 1 + static_cast<int>(std::hypot(dx, dy) / 4);
+    for (int k = 0; k <= pieces; ++k) drawn_.push_back({points[i].x + dx * k / pieces, points[i].y + dy * k / pieces});
+  }
 }
 
 void Panel::dots(const std::vector<Point>& data, const std::string& fill, double radius) {
-  for (const Point& p : data) svg_.circle(at(p), radius, fill);
+  for (const Point& p : data) {
+    svg_.circle(at(p), radius, fill);
+    drawn_.push_back(at(p));
+  }
 }
 
 void Panel::failure(Point data, const std::string& colour) {
   svg_.cross(at(data), 4, {colour, 1.8, ""});
+  drawn_.push_back(at(data));
 }
 
 void Panel::band(double low_y, double high_y, const std::string& text) {
@@ -104,16 +122,43 @@ void Panel::name(Point data, const std::string& text, const std::string& colour)
 }
 
 void Panel::place_names() {
-  std::stable_sort(names_.begin(), names_.end(), [](const Name& a, const Name& b) { return a.at.y < b.at.y; });
-  for (std::size_t i = 0; i < names_.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const bool beside = std::abs(names_[i].at.x - names_[j].at.x) < 8.0 * static_cast<double>(names_[j].text.size());
-      const double lowest = names_[j].at.y + name_gap_px;
-      if (beside && names_[i].at.y < lowest) names_[i].at.y = lowest;
+  std::vector<Box> taken;
+  for (const Name& name : names_) {
+    const double width = text_width(name.text, 12);
+    Box best{};
+    double least = INFINITY;
+    for (const Point& offset : offsets_of(width)) {
+      const Box box{name.at.x + offset.x, name.at.y + offset.y - 10, width, 14};
+      const double cost = cost_of(box, taken) + std::hypot(box.gap_to(name.at), 0.2 * offset.y);
+      if (cost < least) least = cost, best = box;
     }
-    svg_.text({names_[i].at.x + 6, names_[i].at.y + 4}, names_[i].text, Anchor::start, 12, names_[i].colour);
+    taken.push_back(best);
+    if (best.gap_to(name.at) > 18) {
+      const Point end{std::clamp(name.at.x, best.x, best.x + best.width),
+                      name.at.y < best.y ? best.y + 1 : best.y + best.height};
+      svg_.line(name.at, end, {name.colour, 0.7, ""});
+    }
+    svg_.name({best.x, best.y + 10.5}, name.text, name.colour);
   }
   names_.clear();
+}
+
+double Panel::Box::gap_to(Point p) const {
+  return std::hypot(std::max({x - p.x, p.x - x - width, 0.0}), std::max({y - p.y, p.y - y - height, 0.0}));
+}
+
+bool Panel::Box::overlaps(const Box& o) const {
+  return x < o.x + o.width + 3 && o.x < x + width + 3 && y < o.y + o.height && o.y < y + height;
+}
+
+double Panel::cost_of(const Box& box, const std::vector<Box>& taken) const {
+  double cost = 0;
+  for (const Point& p : drawn_) cost += box.gap_to(p) < 2 ? 12 : 0;
+  for (const Box& other : taken) cost += box.overlaps(other) ? 1000 : 0;
+  const bool on_ticks = box.x < corner_.x + 3 || box.y + box.height > corner_.y + height_ - 2;
+  const bool off_sheet = box.x + box.width > svg_.width() - 4;
+  const bool above = box.y < corner_.y - 2;
+  return cost + (on_ticks ? 400 : 0) + (off_sheet ? 1e4 : 0) + (above ? 400 : 0);
 }
 
 }  // namespace studies

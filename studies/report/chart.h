@@ -1,15 +1,10 @@
 // Panels with axes on an Svg: linear or logarithmic, units in the labels, names beside the curves.
 #pragma once
 
+#include "studies/report/style.h"
 #include "studies/report/svg.h"
 
 namespace studies {
-
-// Colours that differ in lightness too, so that they can be told apart in grey (after Okabe and Ito 2008).
-namespace colour {
-inline const std::string black = "#1a1a1a", blue = "#0072b2", orange = "#d55e00", sky = "#56b4e9", green = "#009e73",
-                         purple = "#9a3d7a", yellow = "#c79a00", grey = "#8a8a8a", faint = "#e4e4e4", band = "#f0f0f0";
-}
 
 struct Axis {
   std::string label;  // with its unit
@@ -29,7 +24,8 @@ class Panel {
   void failure(Point data, const std::string& colour);  // a cross
   // Grey band from the lower edge (or low_y) up to high_y: what the reference itself does not resolve.
   void band(double low_y, double high_y, const std::string& text);
-  // Names a curve beside its point; names that would overlap move apart when the panel is closed.
+  // Names a curve near one of its points. place_names() puts all names where they touch neither a curve, a dot, a
+  // cross, a tick, nor each other, as near as that goes; one that ends far from its point gets a thin line to it.
   void name(Point data, const std::string& text, const std::string& colour);
   void place_names();
 
@@ -41,11 +37,20 @@ class Panel {
     std::string text, colour;
   };
 
+  // A name's place, in pixels.
+  struct Box {
+    double x, y, width, height;
+    double gap_to(Point p) const;
+    bool overlaps(const Box& other) const;
+  };
+  double cost_of(const Box& box, const std::vector<Box>& taken) const;
+
   Svg& svg_;
   Point corner_;
   double width_, height_;
   Axis x_, y_;
   std::vector<Name> names_;
+  std::vector<Point> drawn_;  // pixels that names keep clear of, at most a few apart
 };
 
 // The same scale on both axes: widens the ranges so that they fill width x height.

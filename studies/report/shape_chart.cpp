@@ -34,9 +34,8 @@ std::string shape_chart(const std::vector<Centreline>& lines, const std::vector<
                         const std::string& subtitle) {
   const double size = views.size() == 1 ? 520 : 360;
   constexpr double left = 70, top = 66, gap = 110;
-  Svg svg(left + static_cast<double>(views.size()) * (size + gap) - 20, top + size + 60);
-  svg.text({left - 44, 24}, title, Anchor::start, 15);
-  svg.text({left - 44, 44}, subtitle, Anchor::start, 12, colour::grey);
+  Svg svg(left + static_cast<double>(views.size()) * (size + gap) - 20, top + size + 60, title,
+          "Deformed centrelines in the base frame, clamp at the origin.", subtitle);
   for (std::size_t v = 0; v < views.size(); ++v) {
     Axis x = axis_over(lines, views[v].right);
     Axis y = axis_over(lines, views[v].up);

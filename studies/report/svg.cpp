@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace studies {
@@ -38,7 +39,18 @@ std::string escaped(const std::string& text) {
 
 }  // namespace
 
-Svg::Svg(double width, double height) : width_(width), height_(height) {}
+Svg::Svg(double width, double height, const std::string& title, const std::string& description,
+         const std::string& subtitle)
+    : width_(width), height_(height), title_(title), description_(description) {
+  text({26, 24}, title, Anchor::start, 15);
+  if (!subtitle.empty()) text({26, 44}, subtitle, Anchor::start, 12, "#666");
+}
+
+double text_width(const std::string& text, double size) {
+  const auto characters =
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; });
+  return 0.6 * size * static_cast<double>(characters);
+}
 
 void Svg::line(Point from, Point to, const Stroke& stroke) {
   body_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" {}/>\n", number(from.x), number(from.y),
@@ -81,12 +93,19 @@ void Svg::text(Point at, const std::string& text, Anchor anchor, double size, co
                   number(at.y), anchors[static_cast<int>(anchor)], size, colour, turn, escaped(text));
 }
 
+void Svg::name(Point at, const std::string& text, const std::string& colour) {
+  body_ += fmt::format(
+      "<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"{}\" stroke=\"white\" stroke-width=\"3\" "
+      "paint-order=\"stroke\">{}</text>\n",
+      number(at.x), number(at.y), colour, escaped(text));
+}
+
 std::string Svg::str() const {
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
-      "font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\">\n<rect width=\"{0}\" height=\"{1}\" "
-      "fill=\"white\"/>\n{2}</svg>\n",
-      number(width_), number(height_), body_);
+      "font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" role=\"img\">\n<title>{3}</title>\n<desc>{4}</desc>\n"
+      "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n{2}</svg>\n",
+      number(width_), number(height_), body_, escaped(title_), escaped(description_));
 }
 
 }  // namespace studies

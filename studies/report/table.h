@@ -24,6 +24,11 @@ class Table {
 
 // Numbers as text. Fixed digits hide the last bits, which differ from machine to machine; never "-0.000".
 std::string fixed(double value, int digits);
-std::string scientific(double value, int digits);  // "1.2e-07"; "0" for zero
+std::string scientific(double value, int digits);   // "1.2e-07"; "0" for zero
+std::string significant(double value, int digits);  // 3 digits: "0.214", "12.3", "1240"; "–" where it is not finite
+std::string time_text(double time_us);              // three digits in the unit that suits: "0.214 µs", "37.1 ms"
+
+// Numbers as pages write them: a true minus sign, no zeros in front of an exponent. Markdown tables are written so.
+std::string for_reader(const std::string& text);
 
 }  // namespace studies

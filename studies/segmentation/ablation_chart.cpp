@@ -25,9 +25,8 @@ void draw(Panel& panel, const AblationData& data, const std::vector<Series>& ser
 
 std::string ablation_picture(const AblationData& data) {
   const std::string sound = "sound: double, root of dPi/dtheta";
-  Svg svg(1130, 1010);
-  svg.text({26, 24}, "Case P4 (our loads): the published law, weakened on purpose. One digit each, as printed",
-           Anchor::start, 15);
+  Svg svg(1130, 1010, "Case P4 (our loads): the published law, weakened on purpose. One digit each, as printed",
+          "Case P4 (our loads): the published law, weakened on purpose. One digit each, as printed");
   const Axis arcs{"number of arcs N", 1, 5000, true}, error{"tip error, mm", 1e-8, 100, true};
   Panel alone(svg, {80, 66}, 340, 380, arcs, error), combined(svg, {640, 66}, 340, 380, arcs, error);
   alone.frame("Each alone, against the exact Kirchhoff rod");

@@ -43,8 +43,8 @@ void draw_errors(Panel& panel, const SegmentationData& data, double SweepPoint::
 
 std::string error_picture(const SegmentationData& data) {
   const SweepReference& reference = data.reference("P4");
-  Svg svg(1260, 520);
-  svg.text({26, 24}, "Case P4 (our loads): tip error over the number of arcs", Anchor::start, 15);
+  Svg svg(1260, 520, "Case P4 (our loads): tip error over the number of arcs",
+          "Case P4 (our loads): tip error over the number of arcs");
   const Axis arcs{"number of arcs N", 1, 1e6, true};
   Panel exact(svg, {80, 66}, 430, 390, arcs, {"tip error, mm", 1e-11, 100, true});
   exact.band(1e-11, error_floor_mm, "");
@@ -72,8 +72,8 @@ std::vector<Point> inside(const SweepShape& shape, const Axis& x, const Axis& y)
 
 std::string shapes_picture(const SegmentationData& data) {
   const std::vector<std::string> colours = {colour::orange, colour::green, colour::purple, colour::blue, colour::sky};
-  Svg svg(1060, 520);
-  svg.text({26, 24}, "Case P4 (our loads), published law; dots: exact Kirchhoff rod", Anchor::start, 15);
+  Svg svg(1060, 520, "Case P4 (our loads), published law; dots: exact Kirchhoff rod",
+          "Case P4 (our loads), published law; dots: exact Kirchhoff rod");
   const Axis x{"x, mm", -2, 30}, y{"y, mm", -1, 31}, near_x{"x, mm", 14.4, 17.4}, near_y{"y, mm", 26.3, 29.3};
   Panel whole(svg, {80, 66}, 390, 390, x, y), tip(svg, {600, 66}, 390, 390, near_x, near_y);
   whole.frame();
@@ -102,8 +102,8 @@ std::string shapes_picture(const SegmentationData& data) {
 }
 
 std::string budget_picture(const SegmentationData& data) {
-  Svg svg(1180, 450);
-  svg.text({26, 24}, "How much load N arcs carry: largest |F| L²/EI with a tip error under 0.1 mm", Anchor::start, 15);
+  Svg svg(1180, 450, "How much load N arcs carry: largest |F| L²/EI with a tip error under 0.1 mm",
+          "How much load N arcs carry: largest |F| L²/EI with a tip error under 0.1 mm");
   double left = 80;
   for (const std::string load : {"P4 scaled", "transverse force"}) {
     Panel panel(svg, {left, 66}, 390, 320, {"number of arcs N", 1, 500, true}, {"largest |F| L²/EI", 0.01, 100, true});

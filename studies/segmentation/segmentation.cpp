@@ -183,7 +183,7 @@ class Segmentation {
       for (const int arcs : all_arcs) {
         if (options_.quick && arcs > 10'000) continue;
         const auto march = std::make_shared<fam::Prepared>(ready_march(p4_, law, arcs));
-        data_.times.push_back({law, arcs, measure([march] { fam::run_prepared(*march); }, options_.quick ? 0 : 0.05)});
+        data_.times.push_back({law, arcs, time_of(options_, [march] { fam::run_prepared(*march); })});
       }
     }
   }

@@ -100,8 +100,7 @@ std::string picture(const StabilityData& data, const StabilityMap& map) {
   }
   double height = head;
   for (const double row : row_heights) height += row;
-  Svg svg(std::max(1120.0, columns * panel_width), height);
-  svg.text({20, 24}, map.title, Anchor::start, 15);
+  Svg svg(std::max(1120.0, columns * panel_width), height, map.title, map.title);
   draw_legend(svg, 38);
   double top = head + 22;
   for (std::size_t i = 0; i < methods.size(); ++i) {

@@ -41,8 +41,8 @@ std::string errors_picture(const Study1Data& data) {
       {"fam_published_50", "fe_kirchhoff", "published 50 − FE Kirchhoff", colour::sky},
       {"fam_fourth_order_50", "fe_kirchhoff", "fourth_order 50 − FE Kirchhoff", colour::green},
       {"fam_fourth_order_50_reissner", "fe", "fourth_order 50 Reissner − FE", colour::purple}};
-  Svg svg(1000, 470);
-  svg.text({26, 24}, "Study I, follower loads (ours): distance of the tips, case by case", Anchor::start, 15);
+  Svg svg(1000, 470, "Study I, follower loads (ours): distance of the tips, case by case",
+          "Study I, follower loads (ours): distance of the tips, case by case");
   Panel panel(svg, {80, 50}, 600, 350, {"load case", 0.5, 16.5, false}, {"distance of the tips, mm", 1e-9, 10, true});
   panel.frame();
   svg.rectangle({81, 402}, 620, 18, "white");
@@ -68,9 +68,8 @@ std::string errors_picture(const Study1Data& data) {
 
 // Stacked: the lengths of the three parts; a dot where their vector sum, FAM - FE, ends.
 std::string split_picture(const Study1Data& data) {
-  Svg svg(1000, 470);
-  svg.text({26, 24}, "Study I, follower loads (ours): what FAM (published, 12 arcs) − FE is made of", Anchor::start,
-           15);
+  Svg svg(1000, 470, "Study I, follower loads (ours): what FAM (published, 12 arcs) − FE is made of",
+          "Study I, follower loads (ours): what FAM (published, 12 arcs) − FE is made of");
   Panel panel(svg, {80, 50}, 640, 350, {"load case", 0.5, 16.5, false}, {"length of each part, mm", 0, 3, false});
   panel.frame();
   svg.rectangle({81, 402}, 660, 18, "white");

@@ -112,7 +112,7 @@ class Study1 {
 
   void record_time(const std::string& load_case, const std::string& frame, const std::string& name,
                    const Method& method, const scene::Scene& scene) {
-    data_.times.push_back({load_case, frame, name, measure(method.bare_solve(scene), options_.quick ? 0 : 0.05)});
+    data_.times.push_back({load_case, frame, name, time_of(options_, method.bare_solve(scene))});
   }
 
   void write() const {

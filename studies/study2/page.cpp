@@ -174,8 +174,8 @@ std::string timing_csv(const std::vector<Study2Row>& rows) {
 }
 
 std::string deflection_picture(const std::vector<Study2Row>& rows) {
-  Svg svg(900, 460);
-  svg.text({26, 24}, "Study II: deflection along the catheter (forces ours)", Anchor::start, 15);
+  Svg svg(900, 460, "Study II: deflection along the catheter (forces ours)",
+          "Study II: deflection along the catheter (forces ours)");
   svg.text({26, 44}, "lines: exact; dots: FAM, published law, 12 arcs, frames given", Anchor::start, 12, colour::grey);
   Panel panel(svg, {80, 64}, 600, 330, {"arc length s, mm", 0, 504, false}, {"deflection, mm", -130, 70, false});
   panel.frame();
@@ -209,8 +209,8 @@ std::string deflection_picture(const std::vector<Study2Row>& rows) {
 }
 
 std::string errors_picture(const std::vector<Study2Row>& rows) {
-  Svg svg(900, 420);
-  svg.text({26, 24}, "Study II, forces alone: distance from the exact rod along the catheter", Anchor::start, 15);
+  Svg svg(900, 420, "Study II, forces alone: distance from the exact rod along the catheter",
+          "Study II, forces alone: distance from the exact rod along the catheter");
   Panel panel(svg, {80, 50}, 600, 300, {"arc length s, mm", 0, 504, false}, {"distance, mm", 1e-6, 1, true});
   panel.frame();
   panel.band(1e-6, resolved_mm, "shaded: not resolved between stations");

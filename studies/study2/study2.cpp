@@ -81,7 +81,7 @@ class Study2 {
         row.errors_mm.push_back((row.positions_mm.back() - station.X_BS.position_B_mm).norm());
       }
     }
-    if (result.converged()) row.timing = measure(method.bare_solve(scene), options_.quick ? 0 : 0.1);
+    if (result.converged()) row.timing = time_of(options_, method.bare_solve(scene), 0.1);
     rows_.push_back(std::move(row));
   }
 

@@ -45,8 +45,8 @@ void draw(Panel& panel, const TorsionData& data, const std::vector<Series>& seri
 }
 
 std::string error_picture(const TorsionData& data) {
-  Svg svg(1330, 930);
-  svg.text({26, 24}, "Case S1 (our loads) with a follower torque at the tip: tip error", Anchor::start, 15);
+  Svg svg(1330, 930, "Case S1 (our loads) with a follower torque at the tip: tip error",
+          "Case S1 (our loads) with a follower torque at the tip: tip error");
   const Axis error{"tip error, mm", 1e-8, 100, true}, small{"torque, N mm", 0, 50}, all{"torque, N mm", 0, 1000};
   Panel own(svg, {80, 66}, 350, 340, small, error), fe(svg, {720, 66}, 350, 340, small, error);
   own.frame("The paper's range, against the exact Kirchhoff rod");
@@ -62,8 +62,8 @@ std::string error_picture(const TorsionData& data) {
 }
 
 std::string order_picture(const TorsionData& data) {
-  Svg svg(1010, 470);
-  svg.text({26, 24}, "Case S1 (our loads): tip error over N, against the exact Kirchhoff rod", Anchor::start, 15);
+  Svg svg(1010, 470, "Case S1 (our loads): tip error over N, against the exact Kirchhoff rod",
+          "Case S1 (our loads): tip error over N, against the exact Kirchhoff rod");
   const std::vector<std::string> colours = {colour::blue, colour::sky, colour::green, colour::orange, colour::black};
   const std::vector<std::string> names = {"bend, twist", "twist, bend", "midpoint", "fourth_order", "sixth_order"};
   double left = 80;

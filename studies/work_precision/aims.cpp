@@ -37,7 +37,7 @@ const std::vector<Series>& all_series() {
   return series;
 }
 
-AimRow measured(const Series& series, const scene::Scene& scene, double target_mm, double budget_s) {
+AimRow measured(const Series& series, const scene::Scene& scene, double target_mm, const StudyOptions& options) {
   exact_reference::Options kirchhoff;
   kirchhoff.model = exact_reference::RodModel::kirchhoff;
   const Eigen::Vector3d tip_B_mm = exact_reference::solve(scene, kirchhoff).tip().position_B_mm;
@@ -52,7 +52,7 @@ AimRow measured(const Series& series, const scene::Scene& scene, double target_m
     if (error_mm(n) > target_mm || error_mm(n + 1) > target_mm || error_mm(2 * n) > target_mm) continue;
     row.resolution = n;
     row.error_mm = error_mm(n);
-    row.time = measure(series.method(n)->bare_solve(scene), budget_s, 9);
+    row.time = time_of(options, series.method(n)->bare_solve(scene));
   }
   return row;
 }
@@ -68,7 +68,7 @@ std::vector<AimRow> measured_aims(const StudyOptions& options) {
   for (const Aim& aim : {Aim{"S4_follower", 1e-3, 0.5}, {"S4_follower", 1e-8, 10}, {"P2_fixed", 2e-4, 4}}) {
     const scene::Scene scene = read_case(options.cases, "study1/" + aim.scene);
     for (const Series& series : all_series()) {
-      AimRow row = measured(series, scene, aim.target_mm, options.quick ? 0 : 0.05);
+      AimRow row = measured(series, scene, aim.target_mm, options);
       row.scene = aim.scene;
       row.target_mm = aim.target_mm;
       row.aim_us = aim.aim_us;

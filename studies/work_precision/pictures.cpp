@@ -157,9 +157,8 @@ bool timed(const WorkData& data, const std::string& scene) {
 }
 
 std::string scene_picture(const WorkData& data, const WorkGroup& group, const std::string& scene) {
-  Svg svg(1220, 540);
   const std::string title = group.scenes.size() == 1 ? group.name : group.name + ", " + scene.substr(0, 2);
-  svg.text({26, 24}, "Error over time: " + title, Anchor::start, 15);
+  Svg svg(1220, 540, "Error over time: " + title, "Error over time: " + title);
   draw_panel(svg, {80, 66}, data, {scene}, "Kirchhoff", "Kirchhoff rods, against the exact Kirchhoff rod");
   draw_panel(svg, {670, 66}, data, {scene}, "Reissner", "Reissner rods, against the exact Reissner rod");
   svg.text({80, 530}, legend, Anchor::start, 11, colour::grey);
@@ -167,8 +166,8 @@ std::string scene_picture(const WorkData& data, const WorkGroup& group, const st
 }
 
 std::string overview_picture(const WorkData& data) {
-  Svg svg(1220, 1050);
-  svg.text({26, 24}, "Error over time, 16 cases of Study I: median time, largest tip error", Anchor::start, 15);
+  Svg svg(1220, 1050, "Error over time, 16 cases of Study I: median time, largest tip error",
+          "Error over time, 16 cases of Study I: median time, largest tip error");
   for (int row = 0; row < 2; ++row) {
     const WorkGroup& group = data.groups[static_cast<std::size_t>(row)];
     for (int column = 0; column < 2; ++column) {

@@ -102,10 +102,9 @@ class WorkPrecision {
   }
 
   void take_times(const scene::Scene& scene, const Method& method, WorkPoint& point) const {
-    const double budget_s = options_.quick ? 0 : 0.008;
-    point.time = measure(method.bare_solve(scene), budget_s);
+    point.time = time_of(options_, method.bare_solve(scene), 0.008);
     const std::function<void()> warm = method.warm_solve(scene);
-    if (warm) point.warm = measure(warm, budget_s);
+    if (warm) point.warm = time_of(options_, warm, 0.008);
   }
 
   void write() const {
