@@ -21,7 +21,8 @@ namespace studies {
                   row(torsion, "What does torsion cost, in error and in time?", "10 s", false)           \
                       row(study2, "How good is FAM on a catheter of three sections?", "10 s", false)     \
                           row(work_precision, "Which method is fastest at my accuracy?", "3 min", false) \
-                              row(stability, "Where does each method fail?", "1 min", false)
+                              row(stability, "Where does each method fail?", "1 min", false)             \
+                                  row(random, "Is an answer ever wrong without saying so?", "30 min", true)
 
 #define DECLARE(function, question, time, full) void function(const StudyOptions&);
 STUDY_ROWS(DECLARE)

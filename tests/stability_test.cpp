@@ -3,7 +3,7 @@
 #include "fam/solve.h"
 #include "fem_reference/solve.h"
 #include "scene/scene_file.h"
-#include "studies/random/random.h"
+#include "studies/random/outcomes.h"
 #include "studies/methods/rk4_method.h"
 #include "studies/compare/verdict.h"
 #include "support.h"

@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <mutex>
+#include <thread>
 #include <variant>
 
 namespace studies {
@@ -116,6 +119,27 @@ Promise promise_of(std::uint64_t seed, bool count_needed) {
     promise.needed = needed_arcs(scene, truth, promise.tolerance, promise.arcs);
   }
   return promise;
+}
+
+std::vector<Promise> all_promises(std::uint64_t scenes, std::uint64_t (*seed_of)(std::uint64_t),
+                                  Progress::Style style) {
+  std::vector<Promise> promises(scenes);
+  Progress progress("promise", scenes, style);
+  std::mutex reporting;
+  std::atomic<std::uint64_t> next = 0;
+  const auto work = [&] {
+    for (std::uint64_t i = next++; i < scenes; i = next++) {
+      const bool count_needed = i / 10 % 4 == 0;  // a quarter of the scenes, all kinds and tolerances
+      promises[i] = promise_of(seed_of(i), count_needed);
+      if (i % 100 != 99) continue;
+      const std::lock_guard<std::mutex> lock(reporting);
+      progress.at(i, "scenes");
+    }
+  };
+  std::thread other(work);
+  work();
+  other.join();
+  return promises;
 }
 
 PromiseCounts count(const std::vector<Promise>& promises) {

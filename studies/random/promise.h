@@ -1,9 +1,9 @@
 // How often the automatic choice of arcs keeps its promise for the whole shape, over random scenes and tolerances.
 #pragma once
 
+#include "studies/report/progress.h"
+
 #include <cstdint>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,10 +17,9 @@ struct Promise {
   std::string status;  // of fam::solve
   bool same_branch = true;  // false where the answer is another equilibrium than the exact reference's
   double estimate = 0;
-  double error = 0;      // largest of any station; the exact reference's own estimate taken off
-  double tip_error = 0;  // likewise
-  double wrench_error =
-      0;  // of the base's force over the largest force along the rod plus moment over L, or its moment
+  double error = 0;         // largest of any station; the exact reference's own estimate taken off
+  double tip_error = 0;     // likewise
+  double wrench_error = 0;  // of the base's force, or its moment over L, over the sum of all loads' sizes
   int arcs = 0;
   int needed = 0;  // fewest arcs, shared out by length, whose true error is within the tolerance; 0: not looked for
 
@@ -37,6 +36,9 @@ std::uint64_t estimate_seed(std::uint64_t index);
 // The tolerance goes round 1e-2 .. 1e-8 L with the seed. count_needed: look for `needed` as well.
 Promise promise_of(std::uint64_t seed, bool count_needed);
 
+// The promises of scenes 0..scenes-1, by two threads.
+std::vector<Promise> all_promises(std::uint64_t scenes, std::uint64_t (*seed_of)(std::uint64_t), Progress::Style style);
+
 // Over L; smaller errors are not told from the judge's own and from round-off.
 constexpr double smallest_judged_error = 3e-9;
 
@@ -52,11 +54,5 @@ struct PromiseCounts {
   double median_waste = 0, waste_90 = 0;  // arcs used over arcs needed
 };
 PromiseCounts count(const std::vector<Promise>& promises);
-
-// promise.csv (every scene that is not solved, not kept or not judged), counts.csv, promise.svg and README.md of
-// results/random/promise.
-std::map<std::string, std::string> promise_files(const std::vector<Promise>& promises);
-// estimates.md, estimates.csv (by kind) and estimates_low.csv: every estimate below half the error.
-std::map<std::string, std::string> estimate_files(const std::vector<Promise>& promises);
 
 }  // namespace studies

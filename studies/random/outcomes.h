@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -43,8 +42,5 @@ bool is_listed(const RandomOutcome& outcome);
 // One line of text for an outcome and back: seed,loads,method,outcome,error,estimate.
 std::string to_line(const RandomOutcome& outcome);
 RandomOutcome from_line(const std::string& line);
-
-// counts.csv, failures.csv and README.md of results/random.
-std::map<std::string, std::string> random_files(const std::vector<RandomOutcome>& outcomes);
 
 }  // namespace studies
