@@ -1,9 +1,9 @@
-// fam: one scene, at once. `fam solve SCENE`; `fam solve --help` and README.md say more.
+// fam: one scene, at once. `fam solve SCENE`; `fam solve --help` and docs/commands.md say more.
 #include "apps/solve_command.h"
 #include "studies/methods/fam_method.h"
 
 int main(int argc, char** argv) {
-  CLI::App app{"The finite arc method: the static shape of a clamped slender rod"};
+  CLI::App app{"The finite arc method: the static shape of a clamped slender rod", "fam"};
   app.require_subcommand(1);
   apps::SolveArguments arguments;
   apps::add_solve_command(app, arguments);

@@ -95,7 +95,7 @@ int run_studies(const CLI::App& app, StudyArguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Studies of the finite arc method"};
+  CLI::App app{"Studies of the finite arc method", "fam-studies"};
   bool list = false;
   app.add_flag("--list", list, "Print the studies, what each answers and how long it takes");
   apps::SolveArguments solve_arguments;

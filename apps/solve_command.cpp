@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 namespace apps {
 namespace {
@@ -33,6 +34,10 @@ std::string not_positive(const std::string& text) {
   return *end == 0 && std::isfinite(value) && value > 0 ? "" : "must be a number > 0";
 }
 
+std::string no_name(const std::string& text) {
+  return text.empty() ? "must name a file" : "";
+}
+
 // An option that takes one of a few names.
 template <class Value>
 void add_choice(CLI::App* command, const std::string& option, Value& target, const std::string& what,
@@ -50,24 +55,33 @@ CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments) {
   CLI::App* solve = app.add_subcommand("solve", "Solve one scene");
   solve->add_option("scene", arguments.scene_path, "Scene file (JSON), or - for standard input")->required();
   auto* tolerance = solve->add_option("--tolerance-mm", options.tolerance_mm,
-                                      "Largest estimated tip error, mm (default: 1e-3 of the length)");
+                                      "Largest error of any place along the rod, mm (default: 1e-3 of the length)");
   tolerance->check(CLI::Validator(not_positive, "> 0"));
-  solve->add_option("--arcs", options.arcs, "Number of arcs")->check(CLI::Range(1, fam::max_arcs))->excludes(tolerance);
-  add_choice<fam::Law>(solve, "--law", options.law, "Arc law",
+  solve->add_option("--arcs", options.arcs, "Number of arcs (default: as many as the tolerance takes)")
+      ->check(CLI::Range(1, fam::max_arcs))
+      ->excludes(tolerance);
+  add_choice<fam::Law>(solve, "--law", options.law, "Arc law (default: auto, which is sixth_order)",
                        {{"auto", fam::Law::automatic},
                         {"published", fam::Law::published},
                         {"midpoint", fam::Law::midpoint},
                         {"fourth_order", fam::Law::fourth_order},
                         {"sixth_order", fam::Law::sixth_order}});
-  add_choice<fam::RodModel>(solve, "--model", options.model, "Rod model",
+  add_choice<fam::RodModel>(solve, "--model", options.model,
+                            "Rod model (default: auto, without shear where it does not matter)",
                             {{"auto", fam::RodModel::automatic},
                              {"kirchhoff", fam::RodModel::kirchhoff},
                              {"reissner", fam::RodModel::reissner}});
   add_choice<fam::TwistOrder>(
-      solve, "--twist-order", options.twist_order, "Published law: rotation order",
+      solve, "--twist-order", options.twist_order, "Published law: order of its rotations (default: bend_twist)",
       {{"bend_twist", fam::TwistOrder::bend_twist}, {"twist_bend", fam::TwistOrder::twist_bend}});
-  solve->add_option("--format", arguments.format, "text, json or csv")->check(CLI::IsMember({"text", "json", "csv"}));
-  solve->add_option("--svg", arguments.svg_path, "Write a picture of the deformed centreline to this file");
+  solve->add_option("--format", arguments.format, "text, json or csv (default: text)")
+      ->check(CLI::IsMember({"text", "json", "csv"}));
+  solve->add_option("--svg", arguments.svg_path, "Write a picture of the deformed centreline to this file")
+      ->check(CLI::Validator(no_name, "FILE"));
+  solve->callback([solve, &options] {
+    if (solve->count("--twist-order") > 0 && options.law != fam::Law::published)
+      throw CLI::ValidationError("--twist-order", "needs --law published");
+  });
   return solve;
 }
 
@@ -102,17 +116,25 @@ int run_solve(const SolveArguments& arguments, const MethodFactory& make_method)
 }
 
 int run(CLI::App& app, int argc, char** argv, const std::function<int()>& work) {
+  app.set_version_flag("--version", app.get_name() + " " FAM_VERSION, "Print the version and exit");
   try {
     app.parse(argc, argv);
     const int status = work();
     if (std::fflush(stdout) != 0) throw studies::OutputError("standard output: cannot be written");
     return status;
+  } catch (const CLI::RequiredError& error) {  // a name that is misspelt, rather than that another one is missing
+    const std::vector<std::string> unknown = app.remaining(true);
+    unknown.empty() ? app.exit(error) : app.exit(CLI::ExtrasError(unknown));
+    return exit_wrong_input;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_solved : exit_wrong_input;
   } catch (const scene::SceneError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return exit_wrong_input;
-  } catch (const studies::OutputError& error) {
+  } catch (const std::filesystem::filesystem_error& error) {
+    fmt::print(stderr, "{}: {}\n", error.path1().string(), error.code().message());
+    return exit_wrong_input;
+  } catch (const std::exception& error) {  // OutputError among them
     fmt::print(stderr, "{}\n", error.what());
     return exit_not_converged;
   }

@@ -11,7 +11,7 @@ namespace apps {
 // Exit statuses of both commands.
 constexpr int exit_solved = 0;
 constexpr int exit_not_converged = 1;  // also: a result file could not be written
-constexpr int exit_wrong_input = 2;    // scene or usage
+constexpr int exit_wrong_input = 2;    // scene, usage, or a file to read that is not there
 
 struct SolveArguments {
   std::string scene_path;
@@ -30,7 +30,8 @@ using MethodFactory = std::function<std::unique_ptr<studies::Method>(const Solve
 // but for --format json, which states the status.
 int run_solve(const SolveArguments& arguments, const MethodFactory& make_method);
 
-// Parses and runs `work`; turns wrong usage, wrong scenes and unwritable files into one line and the exit status.
+// Adds --version, parses and runs `work`; turns wrong usage, wrong scenes and files that cannot be read or written into
+// a line and the exit status.
 int run(CLI::App& app, int argc, char** argv, const std::function<int()>& work);
 
 }  // namespace apps
