@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <set>
 
 namespace {
 
@@ -53,6 +54,18 @@ void add_method_options(CLI::App* solve, apps::SolveArguments& arguments, Method
         ->check(CLI::Range(1, 100'000));
   }
   solve->add_option("--order", of_method.order, "fem: order of the elements (default: 2)")->check(CLI::Range(1, 3));
+}
+
+// An option of another method would change nothing, and say nothing.
+void refuse_options_of_others(const CLI::App& solve, const std::string& method) {
+  std::set<std::string> taken = {"scene", "--model", "--format", "--svg", "--method"};
+  if (method == "fam") taken.insert({"--tolerance-mm", "--arcs", "--law", "--twist-order"});
+  else if (method == "fem") taken.insert({"--elements", "--order"});
+  else taken.insert("--" + studies::method_row(method).counts + "s");
+  for (const CLI::Option* option : solve.get_options()) {
+    if (option->count() > 0 && taken.count(option->get_name()) == 0)
+      throw CLI::ValidationError(option->get_name(), "is no option of --method " + method);
+  }
 }
 
 struct StudyArguments {
@@ -131,8 +144,10 @@ int main(int argc, char** argv) {
       return apps::exit_solved;
     }
     if (app.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");
-    if (solve->parsed())
+    if (solve->parsed()) {
+      refuse_options_of_others(*solve, solve_arguments.method);
       return apps::run_solve(solve_arguments, [&](const apps::SolveArguments& a) { return make_method(a, of_method); });
+    }
     if (cell->parsed()) {
       fmt::print("{}", scene::write_scene(studies::cell_scene(map, x, y)));
       return apps::exit_solved;

@@ -111,7 +111,8 @@ int run_solve(const SolveArguments& arguments, const MethodFactory& make_method)
                arguments.format == "csv" ? scene::to_csv(result) : scene::to_text(result, method->name(), time_us));
   }
   if (result.converged()) return exit_solved;
-  fmt::print(stderr, "{}: {}: {}\n", arguments.scene_path, scene::name(result.status), result.message);
+  const std::string source = arguments.scene_path == "-" ? "(standard input)" : arguments.scene_path;
+  fmt::print(stderr, "{}: {}: {}\n", source, scene::name(result.status), result.message);
   return exit_not_converged;
 }
 

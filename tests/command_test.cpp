@@ -74,6 +74,8 @@ TEST(Command, UnsupportedIsExitStatusOneAndNoTip) {
   EXPECT_EQ(text.exit_status, 1);
   EXPECT_EQ(text.out, "");
   EXPECT_NE(text.err.find("unsupported: loads[0]"), std::string::npos) << text.err;
+  const Outcome piped = run(fam, "solve - --law published", contents(case_file("study1/S4_fixed")));
+  EXPECT_EQ(piped.err.rfind("(standard input): unsupported: ", 0), 0u) << piped.err;
 
   const fs::path svg = scratch() / "never.svg";
   const Outcome outcome =
@@ -111,6 +113,37 @@ TEST(Command, WrongUsageIsExitStatusTwo) {
     EXPECT_EQ(outcome.out, "") << arguments;
   }
   EXPECT_EQ(run(fam, "--help").exit_status, 0);
+}
+
+TEST(Command, WrongUsageNamesWhatIsWrong) {
+  const std::string scene = case_file("study1/P1_follower");
+  const auto refused = [](const std::string& command, const std::string& arguments) {
+    const Outcome outcome = run(command, arguments);
+    EXPECT_EQ(outcome.exit_status, 2) << arguments;
+    EXPECT_EQ(outcome.out, "") << arguments;
+    return outcome.err.substr(0, outcome.err.find('\n'));
+  };
+  EXPECT_EQ(refused(fam, "slove"), "The following argument was not expected: slove");
+  EXPECT_EQ(refused(fam_studies, "random scenes"), "The following argument was not expected: scenes");
+  EXPECT_EQ(refused(fam, ""), "A subcommand is required");
+  EXPECT_EQ(refused(fam, "solve " + scene + " --twist-order twist_bend"), "--twist-order: needs --law published");
+  EXPECT_EQ(refused(fam, "solve " + scene + " --svg \"\""), "--svg: must name a file");
+  const std::string nowhere = (scratch() / "nowhere").string();
+  EXPECT_EQ(refused(fam_studies, "random sum " + nowhere + " out"), nowhere + ": No such file or directory");
+  for (const auto& [method, option] :
+       {std::pair{"fem", "--arcs"}, {"exact", "--law"}, {"rk4", "--elements"}, {"fam", "--steps"}, {"fe", "--order"}}) {
+    const std::string value = option == std::string("--law") ? " midpoint" : " 2";
+    EXPECT_EQ(refused(fam_studies, "solve " + scene + " --method " + method + " " + option + value),
+              std::string(option) + ": is no option of --method " + method);
+  }
+  EXPECT_EQ(run(fam, "solve " + scene + " --law published --twist-order twist_bend").exit_status, 0);
+  EXPECT_EQ(run(fam_studies, "solve " + scene + " --method fam_midpoint --arcs 8").exit_status, 0);
+}
+
+TEST(Command, VersionIsTheProjects) {
+  EXPECT_EQ(run(fam, "--version").out, "fam " FAM_VERSION "\n");
+  EXPECT_EQ(run(fam_studies, "--version").out, "fam-studies " FAM_VERSION "\n");
+  EXPECT_NE(std::string(FAM_VERSION), "");
 }
 
 // From a stability map to the failing cell: plain shooting on a branch that is far from the others' answer.
