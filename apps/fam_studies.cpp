@@ -5,6 +5,7 @@
 #include "studies/methods/registry.h"
 #include "studies/random/command.h"
 #include "studies/registry.h"
+#include "studies/report/output_file.h"
 #include "studies/stability/maps.h"
 
 #include <fmt/format.h>
@@ -92,6 +93,7 @@ void print_list() {
 int run_studies(const CLI::App& app, StudyArguments& arguments) {
   studies::StudyOptions& options = arguments.options;
   options.progress = arguments.quiet ? studies::Progress::Style::quiet : studies::Progress::style_of(stderr);
+  studies::make_folder(options.output);  // before hours of work, not after
   for (const studies::Study& study : studies::all_studies()) {
     const bool in_all = app.got_subcommand("all") && (arguments.full || !study.full);
     if (app.got_subcommand(study.command()) || in_all) {

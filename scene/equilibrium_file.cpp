@@ -25,7 +25,9 @@ std::string text(const std::variant<bool, int, double, std::string>& value) {
 }
 
 std::string triple(const Eigen::Vector3d& v) {
-  return fmt::format("{:12.6f} {:12.6f} {:12.6f}", v[0], v[1], v[2]);
+  // Never "-0.000000".
+  const auto shown = [](double value) { return std::abs(value) < 5e-7 ? 0.0 : value; };
+  return fmt::format("{:12.6f} {:12.6f} {:12.6f}", shown(v[0]), shown(v[1]), shown(v[2]));
 }
 
 }  // namespace

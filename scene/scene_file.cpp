@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <fstream>
 #include <initializer_list>
 #include <iostream>
@@ -298,7 +299,8 @@ Scene read_scene(std::istream& input, const std::string& source) {
 Scene read_scene_file(const std::string& path) {
   if (path == "-") return read_scene(std::cin, "(standard input)");
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw SceneError(path + ": (file) = (unreadable): must be a readable scene file");
+  if (!file || std::filesystem::is_directory(path))
+    throw SceneError(path + ": (file) = (unreadable): must be a readable scene file");
   return read_scene(file, path);
 }
 

@@ -37,14 +37,22 @@ void add_random_commands(CLI::App& random, const Progress::Style& progress, std:
     fmt::print("{}", scene::write_scene(random_scene(a.seed)));
     return 0;
   });
-  scene->add_option("seed", a.seed)->required();
+  scene->add_option("seed", a.seed)->required()->check(CLI::NonNegativeNumber);
 
+  const CLI::Validator whole_blocks(
+      [](const std::string& text) {
+        return text.size() <= 12 && text.find_first_not_of("0123456789") == std::string::npos &&
+                       std::strtoull(text.c_str(), nullptr, 10) % 1000 == 0
+                   ? std::string()
+                   : "must be a multiple of 1000";
+      },
+      "MULTIPLE OF 1000");
   CLI::App* run = add("run", "Solve and judge the scenes FROM..TO-1 (multiples of 1000)", [&a, &progress] {
     run_blocks(a.from, a.to, a.folder, progress);
     return 0;
   });
-  run->add_option("from", a.from)->required();
-  run->add_option("to", a.to)->required();
+  run->add_option("from", a.from)->required()->check(whole_blocks);
+  run->add_option("to", a.to)->required()->check(whole_blocks);
   run->add_option("folder", a.folder)->required();
 
   CLI::App* second = add("second", "A second opinion where FAM is wrong and silent", [&a] {

@@ -34,4 +34,10 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
   if (error) fail(error.message());
 }
 
+void make_folder(const std::filesystem::path& path) {
+  const std::filesystem::path probe = path / ".probe";
+  write_file(probe, "");
+  std::filesystem::remove(probe);
+}
+
 }  // namespace studies

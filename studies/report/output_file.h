@@ -15,4 +15,7 @@ class OutputError : public std::runtime_error {
 // Writes text to a file, making its folder; throws OutputError naming the path and the system's reason.
 void write_file(const std::filesystem::path& path, const std::string& text);
 
+// Makes a folder that files can be written to; throws likewise.
+void make_folder(const std::filesystem::path& path);
+
 }  // namespace studies
