@@ -2,6 +2,7 @@
 #pragma once
 
 #include "studies/compare/stopwatch.h"
+#include "studies/report/error_text.h"
 
 #include <Eigen/Core>
 
@@ -10,9 +11,6 @@
 #include <vector>
 
 namespace studies {
-
-// Errors below 1e-12 L are round-off of the reference and of the march; files and pictures show this value for them.
-constexpr double error_floor_mm = 4e-11;
 
 // law: published, midpoint, fourth_order, sixth_order (Kirchhoff rods), fourth_order_reissner (with shear and stretch).
 struct SweepPoint {
@@ -62,11 +60,6 @@ struct SegmentationData {
   const SweepReference& reference(const std::string& load_case) const;
   std::vector<SweepPoint> curve(const std::string& load_case, const std::string& law) const;
 };
-
-// Observed order between two numbers of arcs; "–" where an error is too near round-off to tell.
-std::string observed_order(int coarse_arcs, double coarse_mm, int fine_arcs, double fine_mm);
-
-std::string error_text(double error_mm, int digits = 2);  // scientific, not below the floor
 
 // File name to content: CSV files and pictures; the pages.
 std::map<std::string, std::string> segmentation_tables(const SegmentationData& data);

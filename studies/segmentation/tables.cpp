@@ -92,16 +92,6 @@ std::vector<SweepPoint> SegmentationData::curve(const std::string& load_case, co
   return list;
 }
 
-std::string observed_order(int coarse_arcs, double coarse_mm, int fine_arcs, double fine_mm) {
-  constexpr double resolved_mm = 1e-8;
-  if (std::min(coarse_mm, fine_mm) < resolved_mm) return "–";
-  return fixed(std::log(coarse_mm / fine_mm) / std::log(static_cast<double>(fine_arcs) / coarse_arcs), 2);
-}
-
-std::string error_text(double error_mm, int digits) {
-  return scientific(std::max(error_mm, error_floor_mm), digits);
-}
-
 std::map<std::string, std::string> segmentation_tables(const SegmentationData& data) {
   return {{"sweep_p4.csv", sweep_csv(data, true)},  {"sweep_cases.csv", sweep_csv(data, false)},
           {"references.csv", references_csv(data)}, {"budget.csv", budget_csv(data)},
