@@ -21,8 +21,8 @@ double missing_shear_mm(const TorsionData& data, double torque_Nmm) {
 }
 
 void draw_errors(Svg& svg, double top, const std::string& title, const TorsionData& data, double largest_Nmm,
- double named_at_Nmm) {
-  constexpr double lowest_mm = 1e-9, highest_mm = 100;
+                 double named_at_Nmm) {
+  constexpr double lowest_mm = 1e-9, highest_mm = 1000;
   Panel panel(svg, {80, top}, 590, 300, {"torque at the tip, N mm", 0, largest_Nmm},
               {"tip error, mm", lowest_mm, highest_mm, true});
   panel.frame(title);
@@ -42,7 +42,8 @@ void draw_errors(Svg& svg, double top, const std::string& title, const TorsionDa
     }
     panel.curve(points, stroke_of(law));
     panel.dots(points, law.row.style.colour, 2.5);
-    const auto named = std::find_if(points.begin(), points.end(), [&](const Point& p) { return p.x >= named_at_Nmm; });
+    const auto named = std::find_if(points.begin(), points.end(),
+                                    [&](const Point& p) { return p.x >= named_at_Nmm + (law.twist_first ? 200 : 0); });
     panel.name(named == points.end() ? points.back() : *named, law.label(), law.row.style.colour);
   }
   panel.place_names();
