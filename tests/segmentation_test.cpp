@@ -101,12 +101,14 @@ TEST(Segmentation, DecoupledArcsAreFirstOrderInSpace) {
   EXPECT_NEAR(s1_order(Law::fourth_order), 4, 0.05);
 }
 
+const exact_reference::PlanarCantilever p4_rod{length_mm, 750, {0, -1.5}, 60};
+
 TEST(Ablation, WithoutWeaknessIsTheLibrarysLaw) {
   const scene::Scene p4 = support::study1_scene("P4", "follower");
   for (const int arcs : {1, 12, 500}) {
     const Vector3d library = tip_mm(p4, with(Law::published, arcs));
     const auto distance = [&](const studies::Weakness& weakness) {
-      return (studies::weakened_tip_mm(weakness, arcs) - library.head<2>()).norm();
+      return (studies::weakened_tip_mm(p4_rod, weakness, arcs) - library.head<2>()).norm();
     };
     const double limit_mm = 1e-9;  // the section's EI is 750 to 13 digits
     EXPECT_LT(distance({}), limit_mm) << arcs;
@@ -119,7 +121,7 @@ TEST(Ablation, WithoutWeaknessIsTheLibrarysLaw) {
 // The finding that the page tells: a bracket stopped at an absolute tolerance rises, a secant root does not.
 TEST(Ablation, OnlyABracketWithAnAbsoluteToleranceRises) {
   const auto change_mm = [](const studies::Weakness& weakness, int arcs) {
-    return (studies::weakened_tip_mm(weakness, arcs) - studies::weakened_tip_mm({}, arcs)).norm();
+    return (studies::weakened_tip_mm(p4_rod, weakness, arcs) - studies::weakened_tip_mm(p4_rod, {}, arcs)).norm();
   };
   const studies::Weakness bracket{.search = studies::Search::golden, .tolerance = 1e-3}, secant{.tolerance = 1e-3};
   EXPECT_GT(change_mm(bracket, 5000), 1);
@@ -127,9 +129,9 @@ TEST(Ablation, OnlyABracketWithAnAbsoluteToleranceRises) {
   EXPECT_LT(change_mm(secant, 5000), 1e-6);
 }
 
-// What studies/ablation_page.cpp says in words of the variants.
+// What the page of the ablation says of the variants in words.
 TEST(Ablation, TrendsAreAsThePageSays) {
-  const studies::AblationData data = studies::run_ablation({16.0746, 28.5220});
+  const studies::AblationData data = studies::run_ablation(p4_rod, {16.0746, 28.5220});
   for (const studies::AblationRow& row : data.rows) {
     const studies::Trend t = studies::trend(row, &studies::AblationPoint::error_mm);
     const studies::Weakness& w = row.weakness;
