@@ -34,11 +34,11 @@ std::string ablation_picture(const AblationData& data) {
   const Series sound{"sound: double, root of dPi/dtheta", "sound", published, "", 5000};
   Svg svg(
       880, 1230, "FAM published, weakened on purpose: tip error over the number of arcs, case P4 (our loads)",
-      "Three charts of the tip error in mm over the number of arcs from 1 to 5000, both logarithmic. First, weak "
-      "arithmetic: all but the force that is not turned to the next arc fall with the sound curve to a hundredth of "
-      "a mm and less; single precision turns up gently at the end. Second, searches stopped at an absolute "
-      "tolerance: golden section and bisection at 1e-3 rad and more fall to a least error and rise again to "
-      "millimetres. Third, the same against finite elements, beside what the paper prints.",
+      "Three charts of the tip error in mm over the number of arcs from 1 to 5000, both logarithmic; the sound law is "
+      "a straight falling line in the first two. First, weak arithmetic: single precision, a multiplied-out "
+      "functional, a minimiser, forces not turned. Second, searches stopped at an absolute tolerance: golden section "
+      "and bisection leave the sound line and turn up, a secant root does not. Third, the same against finite "
+      "elements, beside what the paper prints. Look at which curves turn up, and how high.",
       "one digit each, as in the tables; black, dashed: what the paper prints in words for its own loads");
   const Axis arcs{"number of arcs N", 1, 5000, true}, error{"tip error, mm", 1e-8, 100, true};
   Panel weak(svg, {80, 86}, 610, 290, arcs, error);

@@ -149,8 +149,8 @@ std::string budget_picture(const SegmentationData& data) {
           points.push_back({static_cast<double>(b.arcs), b.largest_load});
         }
       }
-      const bool coarse = law.key == "sixth_order" || law.key == "published";
-      draw_curve(panel, law, points, coarse ? 2 : 20);
+      const bool at_few = law.key == "sixth_order" || law.key == "published";
+      draw_curve(panel, law, points, at_few ? 2 : law.key == "midpoint" ? 8 : 20);
     }
     panel.place_names();
     top += 400;

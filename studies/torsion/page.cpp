@@ -69,7 +69,7 @@ std::string time_ratios(const TorsionData& data, const std::string& scene, const
     const double ratio = time_us(data, scene, law.key) / time_us(data, over, law.key);
     least = std::min(least, ratio), largest = std::max(largest, ratio);
   }
-  return significant(least, 2) + " to " + significant(largest, 2);
+  return fixed(least, 2) + " to " + fixed(largest, 2);
 }
 
 std::string orders_at_zero(const TorsionData& data) {
@@ -118,12 +118,7 @@ void set_times(Page& page, const TorsionData& data) {
     page.set_time(fmt::format("solve_{}", scene), time_text(time_us(data, scene, "fam")));
     page.set_time(fmt::format("sixth_{}", scene), time_text(time_us(data, scene, "sixth_order")));
   }
-  page.set_time(
-      "repeats",
-      std::to_string(
-          std::min_element(data.times.begin(), data.times.end(), [](const TorsionTime& a, const TorsionTime& b) {
-            return a.timing.repeats < b.timing.repeats;
-          })->timing.repeats));
+  page.set_time("repeats", std::to_string(data.times.front().timing.repeats));
 }
 
 std::string answer(const TorsionData& data) {

@@ -52,7 +52,7 @@ void draw_errors(Svg& svg, double top, const std::string& title, const TorsionDa
 std::string error_picture(const TorsionData& data) {
   Svg svg(880, 820, "Tip error with 12 arcs over the torque at the tip, case S1 (our loads)",
           "Two charts of the tip error in mm, logarithmic, over the follower torque: above from 0 to 50 N mm, the "
-          "paper's range, below to 1000 N mm. Curves from top to bottom: FAM published in both orders of its "
+          "paper's range, below to 1000 N mm. Curves: FAM published in both orders of its "
           "rotations, midpoint, fourth order, sixth order, each with 12 arcs, and a dotted line for what shear and "
           "stretch move the tip. Look at the distance between the published law and the others.",
           "against the exact Kirchhoff rod; dotted grey: what shear and stretch, left out, would move the tip; "

@@ -67,9 +67,11 @@ std::string timing_csv(const TorsionData& data) {
                spread ? significant(t.timing.lower_quartile_us, 4) : "",
                spread ? significant(t.timing.upper_quartile_us, 4) : "", std::to_string(t.timing.repeats)});
   }
-  return table.csv({machine_line(),
-                    "plane: S1's force alone; space: S1; torque: S1 and 50 N mm. fam: all of fam::solve, the number of "
-                    "arcs chosen; else the march with the arcs given, warm."});
+  return table.csv(
+      {machine_line(),
+       "plane: S1's force alone; space: S1; torque: S1 and 50 N mm. fam: all of fam::solve, the number of "
+       "arcs chosen; else the march with the arcs given, warm. Repeats: rounds with all rows in turn, each the "
+       "median of its runs."});
 }
 
 // T / (m g r_g) of the whole flexure.

@@ -161,22 +161,44 @@ class Torsion {
                            distance_mm(tilted, method_row("fe")()->solve(scene))});
   }
 
-  void take_times() {
+  struct Timed {
+    std::string scene, law;
+    int arcs;
+    std::function<void()> work;
+    std::vector<double> rounds_us;
+  };
+
+  std::vector<Timed> works() const {
+    std::vector<Timed> list;
     scene::Scene plane = s1_;
     std::erase_if(plane.loads, [](const scene::Load& load) { return std::holds_alternative<scene::Moment>(load); });
     const scene::Scene torque = with_torque(s1_, largest_printed_Nmm);
-    const auto take = [&](const std::string& name, const scene::Scene& scene, const std::string& law,
-                          const Method& method, int arcs) {
-      data_.times.push_back({name, law, arcs, time_of(options_, method.bare_solve(scene), 0.2)});
-    };
     for (const auto& [name, scene] :
          {std::pair<std::string, const scene::Scene&>{"plane", plane}, {"space", s1_}, {"torque", torque}}) {
-      for (const TorsionLaw& law : torsion_laws()) take(name, scene, law.key, *law.row(law.with(12)), 12);
-      take(name, scene, "fam", *method_row("fam")(), 0);
+      for (const TorsionLaw& law : torsion_laws()) {
+        list.push_back({name, law.key, 12, law.row(law.with(12))->bare_solve(scene), {}});
+      }
+      list.push_back({name, "fam", 0, method_row("fam")()->bare_solve(scene), {}});
     }
     for (const TorsionLaw& law : torsion_laws()) {  // as many as it takes
       const int arcs = data_.fewest_arcs(largest_printed_Nmm, law.key, 0.1);
-      if (arcs != 12 && arcs > 0) take("torque", torque, law.key, *law.row(law.with(arcs)), arcs);
+      if (arcs != 12 && arcs > 0)
+        list.push_back({"torque", law.key, arcs, law.row(law.with(arcs))->bare_solve(torque), {}});
+    }
+    return list;
+  }
+
+  // All in turn, round by round: a processor that slows down slows all of them.
+  void take_times() {
+    std::vector<Timed> list = works();
+    const int rounds = options_.quick ? 1 : 15;
+    for (int i = 0; i < rounds; ++i) {
+      for (Timed& timed : list) timed.rounds_us.push_back(time_of(options_, timed.work, 0.01).median_us);
+    }
+    for (const Timed& timed : list) {
+      const auto quartile = [&](double share) { return quantile(timed.rounds_us, share); };
+      data_.times.push_back(
+          {timed.scene, timed.law, timed.arcs, {quartile(0.5), quartile(0.25), quartile(0.75), rounds}});
     }
   }
 
