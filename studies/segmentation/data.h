@@ -3,7 +3,6 @@
 
 #include "studies/compare/stopwatch.h"
 #include "studies/methods/registry.h"
-#include "studies/segmentation/ablation.h"
 
 #include "exact_reference/elastica.h"
 #include "fam/arc_law.h"
