@@ -1,7 +1,5 @@
 #include "studies/segmentation/ablation.h"
 
-#include "exact_reference/elastica.h"
-
 #include <fmt/format.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_min.h>
@@ -14,7 +12,6 @@ namespace studies {
 namespace {
 
 const std::vector<int> sweep_arcs = {1, 2, 3, 4, 6, 8, 12, 16, 20, 30, 50, 100, 200, 500, 1000, 2000, 5000};
-constexpr double length_mm = 40, bending_Nmm2 = 750, force_N = -1.5, moment_Nmm = 60;  // P4
 
 struct MarchResult {
   Eigen::Vector2d tip_mm;
@@ -24,7 +21,7 @@ struct MarchResult {
 
 // The wrench carried through given angles in double and without cancellation.
 struct Shadow {
-  double fx = 0, fy = force_N, m = moment_Nmm;
+  double fx, fy, m;
 
   void carry(double angle, double arc_mm, bool straight) {
     const fam::ScrewCoefficients k = fam::screw_coefficients(angle * angle);
@@ -65,20 +62,21 @@ Eigen::Vector2d soundly_summed_up(const std::vector<double>& tip_to_clamp, doubl
 
 // From tip to clamp, then the pose from clamp to tip, all in T.
 template <class T>
-MarchResult march(const Weakness& weakness, int arcs) {
+MarchResult march(const PlanarCantilever& rod, const Weakness& weakness, int arcs) {
   static const Weakness sound;
-  const T h = static_cast<T>(length_mm / arcs), compliance = h / static_cast<T>(bending_Nmm2);
-  T fx = 0, fy = static_cast<T>(force_N), m = static_cast<T>(moment_Nmm);
+  const double arc_mm = rod.length_mm / arcs, bending_Nmm2 = rod.bending_stiffness_Nmm2;
+  const T h = static_cast<T>(arc_mm), compliance = h / static_cast<T>(bending_Nmm2);
+  Shadow shadow{rod.tip_force_N[0], rod.tip_force_N[1], rod.tip_moment_Nmm};
+  T fx = static_cast<T>(shadow.fx), fy = static_cast<T>(shadow.fy), m = static_cast<T>(shadow.m);
   MarchResult result;
-  Shadow shadow;
   std::vector<T> angle(static_cast<std::size_t>(arcs)), px(angle.size()), py(angle.size());
   for (std::size_t i = angle.size(); i-- > 0;) {
     const PlanarArc<T> arc{m * compliance, fx * h * compliance, fy * h * compliance, weakness};
     const T t = angle[i] = arc.angle(static_cast<T>(arcs));
-    const PlanarArc<double> exactly{static_cast<double>(m) * length_mm / arcs / bending_Nmm2,
-                                    static_cast<double>(fx) * length_mm / arcs * length_mm / arcs / bending_Nmm2,
-                                    static_cast<double>(fy) * length_mm / arcs * length_mm / arcs / bending_Nmm2,
-                                    sound};
+    const PlanarArc<double> exactly{
+        static_cast<double>(m) * rod.length_mm / arcs / bending_Nmm2,
+        static_cast<double>(fx) * rod.length_mm / arcs * rod.length_mm / arcs / bending_Nmm2,
+        static_cast<double>(fy) * rod.length_mm / arcs * rod.length_mm / arcs / bending_Nmm2, sound};
     result.angle_errors_rad.push_back(static_cast<double>(t) - exactly.angle(arcs));
     result.angles_rad.push_back(static_cast<double>(t));
     const auto k = arc.forms(t);
@@ -89,15 +87,15 @@ MarchResult march(const Weakness& weakness, int arcs) {
     fx = nx;
     fy = ny;
     m += px[i] * fy - py[i] * fx;
-    shadow.carry(static_cast<double>(t), length_mm / arcs, weakness.straight_to_next);
+    shadow.carry(static_cast<double>(t), rod.length_mm / arcs, weakness.straight_to_next);
   }
   result.tip_mm = summed_up<T>(angle, px, py);
   result.drift = static_cast<double>(m) / shadow.m - 1;
   return result;
 }
 
-MarchResult march_in(const Weakness& weakness, int arcs) {
-  return weakness.single_precision ? march<float>(weakness, arcs) : march<double>(weakness, arcs);
+MarchResult march_in(const PlanarCantilever& rod, const Weakness& weakness, int arcs) {
+  return weakness.single_precision ? march<float>(rod, weakness, arcs) : march<double>(rod, weakness, arcs);
 }
 
 std::vector<AblationRow> variants() {
@@ -158,14 +156,16 @@ Cancellation cancellation(int arcs) {
   return {arcs, t, std::abs(in_single / exact - 1), std::abs(in_double / exact - 1)};
 }
 
-AblationPoint weakened_point(const Weakness& weakness, int arcs, const Eigen::Vector2d& fe_tip_mm) {
-  const MarchResult result = march_in(weakness, arcs);
-  static const Eigen::Vector2d exact =
-      exact_reference::Elastica::with_follower_load({length_mm, bending_Nmm2, {0, force_N}, moment_Nmm})
-          .tip()
-          .position_B_mm;
-  AblationPoint point{arcs,         (result.tip_mm - exact).norm(),    0, 0, 0, 0,
-                      result.drift, (result.tip_mm - fe_tip_mm).norm()};
+// What all variants are judged against.
+struct Truth {
+  PlanarCantilever rod;
+  Eigen::Vector2d exact_mm, fe_mm;
+};
+
+AblationPoint weakened_point(const Truth& truth, const Weakness& weakness, int arcs) {
+  const MarchResult result = march_in(truth.rod, weakness, arcs);
+  AblationPoint point{arcs,         (result.tip_mm - truth.exact_mm).norm(), 0, 0, 0, 0,
+                      result.drift, (result.tip_mm - truth.fe_mm).norm()};
   for (const double error : result.angle_errors_rad) point.bias_rad += error;
   for (std::size_t i = 0; i < result.angles_rad.size(); ++i) {
     const double error = result.angle_errors_rad[i];
@@ -173,12 +173,12 @@ AblationPoint weakened_point(const Weakness& weakness, int arcs, const Eigen::Ve
     point.largest_relative = std::max(point.largest_relative, std::abs(error / result.angles_rad[i]));
   }
   point.scatter_rad = std::sqrt(point.scatter_rad);
-  point.sums_mm = (result.tip_mm - soundly_summed_up(result.angles_rad, length_mm / arcs)).norm();
+  point.sums_mm = (result.tip_mm - soundly_summed_up(result.angles_rad, truth.rod.length_mm / arcs)).norm();
   return point;
 }
 
-AblationRow swept(AblationRow row, const Eigen::Vector2d& fe_tip_mm) {
-  for (const int arcs : sweep_arcs) row.points.push_back(weakened_point(row.weakness, arcs, fe_tip_mm));
+AblationRow swept(AblationRow row, const Truth& truth) {
+  for (const int arcs : sweep_arcs) row.points.push_back(weakened_point(truth, row.weakness, arcs));
   return row;
 }
 
@@ -192,14 +192,14 @@ void count(Census& census, double tolerance, const Trend& t) {
   census.largest_all = tolerance;
 }
 
-std::vector<Census> take_censuses(const Eigen::Vector2d& fe_tip_mm) {
+std::vector<Census> take_censuses(const Truth& truth) {
   constexpr int curves = 41;
   std::vector<Census> censuses;
   for (const auto& [search, name] : {std::pair{Search::golden, "golden section"}, {Search::bisection, "bisection"}}) {
     Census exact{name, "exact", 0, 0, 0, 0, 0, 0, 0}, fe{name, "fe", 0, 0, 0, 0, 0, 0, 0};
     for (int i = 0; i < curves; ++i) {
       const double tolerance = std::pow(10, -4 + 2. * i / (curves - 1));
-      const AblationRow row = swept({"", "", {.search = search, .tolerance = tolerance}, {}}, fe_tip_mm);
+      const AblationRow row = swept({"", "", {.search = search, .tolerance = tolerance}, {}}, truth);
       count(exact, tolerance, trend(row, &AblationPoint::error_mm));
       count(fe, tolerance, trend(row, &AblationPoint::fe_mm));
     }
@@ -229,8 +229,8 @@ double brent_minimum(const std::function<double(double)>& f, double low, double 
   return gsl_min_fminimizer_x_minimum(state.get());
 }
 
-Eigen::Vector2d weakened_tip_mm(const Weakness& weakness, int arcs) {
-  return march_in(weakness, arcs).tip_mm;
+Eigen::Vector2d weakened_tip_mm(const PlanarCantilever& rod, const Weakness& weakness, int arcs) {
+  return march_in(rod, weakness, arcs).tip_mm;
 }
 
 const AblationRow& AblationData::row(const std::string& name) const {
@@ -239,11 +239,24 @@ const AblationRow& AblationData::row(const std::string& name) const {
   return *found;
 }
 
-AblationData run_ablation(const Eigen::Vector2d& fe_tip_mm) {
-  AblationData data;
-  data.rows = variants();
-  for (AblationRow& row : data.rows) row = swept(row, fe_tip_mm);
-  data.censuses = take_censuses(fe_tip_mm);
+const AblationPoint& AblationData::point(const std::string& name, int arcs) const {
+  const std::vector<AblationPoint>& points = row(name).points;
+  return *std::find_if(points.begin(), points.end(), [&](const AblationPoint& p) { return p.arcs == arcs; });
+}
+
+bool stops_at_a_bracket(const Weakness& w) {
+  return w.tolerance > 0 && !w.radius_unknown && (w.search == Search::golden || w.search == Search::bisection);
+}
+
+// A stiffness from a diameter and a modulus is rounded to ten digits: weak arithmetic is chaotic, and its results would
+// hang on the last bits.
+AblationData run_ablation(const PlanarCantilever& given, const Eigen::Vector2d& fe_tip_mm) {
+  PlanarCantilever rod = given;
+  rod.bending_stiffness_Nmm2 = std::stod(fmt::format("{:.10g}", given.bending_stiffness_Nmm2));
+  const exact_reference::PlanarPose tip = exact_reference::Elastica::with_follower_load(rod).tip();
+  const Truth truth{rod, tip.position_B_mm, fe_tip_mm};
+  AblationData data{rod.length_mm, std::abs(tip.angle_rad), take_censuses(truth), variants(), {}};
+  for (AblationRow& row : data.rows) row = swept(row, truth);
   for (const int arcs : {1, 12, 100, 500, 1000, 5000}) data.cancellations.push_back(cancellation(arcs));
   return data;
 }

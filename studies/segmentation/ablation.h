@@ -4,8 +4,11 @@
 
 #include "studies/segmentation/ablation_arcs.h"
 
+#include "exact_reference/elastica.h"
+
 #include <Eigen/Core>
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -44,18 +47,25 @@ struct Census {
 };
 
 struct AblationData {
+  double length_mm, tip_angle_rad;  // of the exact rod
   std::vector<Census> censuses;
   std::vector<AblationRow> rows;
   std::vector<Cancellation> cancellations;
 
   const AblationRow& row(const std::string& name) const;
+  const AblationPoint& point(const std::string& name, int arcs) const;
 };
 
-// P4's tip with N arcs.
-Eigen::Vector2d weakened_tip_mm(const Weakness& weakness, int arcs);
+// Searches that halve a bracket until an absolute tolerance.
+bool stops_at_a_bracket(const Weakness& weakness);
 
-// fe_tip_mm: of P4, with shear and stretch.
-AblationData run_ablation(const Eigen::Vector2d& fe_tip_mm);
+// A planar rod under a follower load.
+using exact_reference::PlanarCantilever;
+
+Eigen::Vector2d weakened_tip_mm(const PlanarCantilever& rod, const Weakness& weakness, int arcs);
+
+// fe_tip_mm: of the same rod, with shear and stretch.
+AblationData run_ablation(const PlanarCantilever& rod, const Eigen::Vector2d& fe_tip_mm);
 
 // What the paper prints of its error over N, asked of a curve of errors (NaN is left out). No values are printed but
 // the 3 mm; "near 12" is taken as 8 to 30, "rises" as twice the error of 500 arcs at 5000.
@@ -69,9 +79,18 @@ struct Trend {
 };
 Trend trend(const AblationRow& row, double AblationPoint::*error);
 
-std::string ablation_picture(const AblationData& data);
 std::string one_digit(double value);  // of its magnitude; "–" where it is not finite
+std::string ablation_picture(const AblationData& data);
+std::map<std::string, std::string> ablation_tables(const AblationData& data);  // CSV
 
-std::map<std::string, std::string> ablation_files(const AblationData& data, double fixed_frame_mm);
+// Tables of the page.
+std::string trend_table(const AblationData& data);
+std::string tolerance_table(const AblationData& data);
+std::string census_table(const AblationData& data);
+std::string mechanism_table(const AblationData& data);
+
+// fixed_frame_mm: how far the tip moves if the load keeps its direction in space.
+std::map<std::string, std::string> ablation_files(const AblationData& data, double fixed_frame_mm,
+                                                  const std::filesystem::path& page_md);
 
 }  // namespace studies

@@ -1,20 +1,36 @@
-// What the segmentation sweep solved, and its tables, pictures and pages as pure functions of it.
+// What the segmentation sweep solved, and its tables, pictures and page as pure functions of it.
 #pragma once
 
 #include "studies/compare/stopwatch.h"
+#include "studies/methods/registry.h"
+
+#include "exact_reference/elastica.h"
+#include "fam/arc_law.h"
 
 #include <Eigen/Core>
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace studies {
 
-// Errors below 1e-12 L are round-off of the reference and of the march; files and pictures show this value for them.
-constexpr double error_floor_mm = 4e-11;
+// A law as this study's files spell it; of fourth_order_reissner the arcs shear and stretch.
+struct SweepLaw {
+  std::string key;
+  const MethodRow& row;
+  fam::Law law;
+  scene::RodModel model;
 
-// law: published, midpoint, fourth_order, sixth_order (Kirchhoff rods), fourth_order_reissner (with shear and stretch).
+  bool shears() const { return model == scene::RodModel::reissner; }
+  Request with(int arcs) const;
+  std::string label() const;
+};
+const std::vector<SweepLaw>& sweep_laws();
+const SweepLaw& sweep_law(const std::string& key);
+std::vector<SweepLaw> kirchhoff_laws();  // without fourth_order_reissner
+
 struct SweepPoint {
   std::string load_case, law;
   int arcs;
@@ -28,6 +44,16 @@ struct SweepReference {
   double shear_mm;                           // tip of the exact Reissner rod - exact Kirchhoff rod
   double frame_mm;                           // finite elements: the same components fixed - follower
 };
+
+// Fewest arcs such that they, and all finer divisions that were tried, keep the tip within the limit of the exact
+// Kirchhoff rod; 0: more than most_arcs_tried. law fam: as many as the automatic choice takes at that tolerance.
+struct FewestArcs {
+  std::string load_case, law;
+  double limit_mm;
+  int arcs;
+};
+constexpr int most_arcs_tried = 100'000;
+inline const std::vector<double> arc_limits_mm = {1, 0.1, 0.04, 0.01, 0.001};
 
 // Largest |F| L^2/EI such that it and every smaller one stays under the limit.
 struct Budget {
@@ -44,15 +70,18 @@ struct SweepShape {
   std::vector<Eigen::Vector3d> positions_mm;
 };
 
+// law fam: all of fam::solve, its automatic choice included (arcs 0); else the march alone.
 struct SweepTime {
-  std::string law;
+  std::string load_case, law;
   int arcs;
   Timing timing;
 };
 
 struct SegmentationData {
+  exact_reference::PlanarCantilever p4;  // rod and follower load of P4
   std::vector<SweepPoint> points;
   std::vector<SweepReference> references;
+  std::vector<FewestArcs> fewest;
   std::vector<Budget> budgets;
   std::vector<SweepShape> shapes;
   std::vector<SweepTime> times;
@@ -61,18 +90,20 @@ struct SegmentationData {
   const SweepPoint* find(const std::string& load_case, const std::string& law, int arcs) const;
   const SweepReference& reference(const std::string& load_case) const;
   std::vector<SweepPoint> curve(const std::string& load_case, const std::string& law) const;
+  // Of the planar or the spatial cases, a number each; 0 as it stands in FewestArcs.
+  std::vector<int> fewest_arcs(const std::string& law, bool planar, double limit_mm) const;
 };
 
-// Observed order between two numbers of arcs; "–" where an error is too near round-off to tell.
-std::string observed_order(int coarse_arcs, double coarse_mm, int fine_arcs, double fine_mm);
-
-std::string error_text(double error_mm, int digits = 2);  // scientific, not below the floor
-
-// File name to content: CSV files and pictures; the pages.
+// File name to content: CSV files, pictures, page and answers.
 std::map<std::string, std::string> segmentation_tables(const SegmentationData& data);
 std::map<std::string, std::string> segmentation_pictures(const SegmentationData& data);
-std::string segmentation_page(const SegmentationData& data);
-std::string segmentation_headline(const SegmentationData& data);
-std::string segmentation_timing_page(const SegmentationData& data);
+std::map<std::string, std::string> segmentation_pages(const SegmentationData& data,
+                                                      const std::filesystem::path& page_md);
+
+// Tables of the page, and a cell of the first: "3 to 5" arcs from the easiest to the hardest case.
+std::string arcs_table(const SegmentationData& data);
+std::string arcs_cell(const SegmentationData& data, const std::string& law, bool planar, double limit_mm);
+std::string sweep_table(const SegmentationData& data);
+std::string times_table(const SegmentationData& data);
 
 }  // namespace studies

@@ -1,11 +1,12 @@
+#include "studies/report/error_text.h"
 #include "studies/report/provenance.h"
 #include "studies/report/table.h"
-#include "studies/scenes/cases.h"
 #include "studies/segmentation/data.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace studies {
 namespace {
@@ -41,6 +42,17 @@ std::string references_csv(const SegmentationData& data) {
                     "without; fixed_frame: tip of the finite elements under the same components, fixed and follower."});
 }
 
+std::string fewest_csv(const SegmentationData& data) {
+  Table table({"case", "law", "limit_mm", "fewest_arcs"});
+  for (const FewestArcs& f : data.fewest) {
+    const std::string none = f.law == "fam" ? "" : fmt::format(">{}", most_arcs_tried);
+    table.add({f.load_case, f.law, fixed(f.limit_mm, 3), f.arcs ? std::to_string(f.arcs) : none});
+  }
+  return table.csv({ours,
+                    "Fewest arcs such that they and all finer divisions tried keep the tip within the limit of the "
+                    "exact Kirchhoff rod. fam: as many as the automatic choice takes at that tolerance."});
+}
+
 std::string budget_csv(const SegmentationData& data) {
   Table table({"load", "law", "arcs", "limit_mm", "largest_FL2_EI"});
   for (const Budget& b : data.budgets) {
@@ -61,51 +73,84 @@ std::string shapes_csv(const SegmentationData& data) {
 }
 
 std::string timing_csv(const SegmentationData& data) {
-  Table table({"law", "arcs", "median_us", "lower_quartile_us", "upper_quartile_us", "repeats"});
+  Table table({"case", "law", "arcs", "median_us", "lower_quartile_us", "upper_quartile_us", "repeats"});
   for (const SweepTime& t : data.times) {
-    table.add({t.law, std::to_string(t.arcs), fixed(t.timing.median_us, 2), fixed(t.timing.lower_quartile_us, 2),
-               fixed(t.timing.upper_quartile_us, 2), std::to_string(t.timing.repeats)});
+    const bool spread = t.timing.has_spread();
+    table.add({t.load_case, t.law, t.arcs ? std::to_string(t.arcs) : "", significant(t.timing.median_us, 4),
+               spread ? significant(t.timing.lower_quartile_us, 4) : "",
+               spread ? significant(t.timing.upper_quartile_us, 4) : "", std::to_string(t.timing.repeats)});
   }
-  return table.csv({machine_line(), "P4: the march from tip to clamp and the poses of all arc ends, warm."});
+  return table.csv({machine_line(),
+                    "The march from tip to clamp and the poses of all arc ends, warm. fam: all of fam::solve, the "
+                    "number of arcs chosen."});
+}
+
+std::string error_of(const SegmentationData& data, const SweepLaw& law, int arcs, double SweepPoint::*error) {
+  const SweepPoint* point = data.find("P4", law.key, arcs);
+  return point ? error_for_reader(std::max(point->*error, error_floor_mm)) : "–";
 }
 
 }  // namespace
 
-const SweepPoint* SegmentationData::find(const std::string& load_case, const std::string& law, int arcs) const {
-  const auto found = std::find_if(points.begin(), points.end(), [&](const SweepPoint& p) {
-    return p.load_case == load_case && p.law == law && p.arcs == arcs;
-  });
-  return found == points.end() ? nullptr : &*found;
+// 0 among the numbers, more than were tried, is the largest.
+std::string arcs_cell(const SegmentationData& data, const std::string& law, bool planar, double limit_mm) {
+  const std::vector<int> arcs = data.fewest_arcs(law, planar, limit_mm);
+  const auto more = [](int a, int b) { return a != 0 && (b == 0 || a < b); };
+  const auto [least, largest] = std::minmax_element(arcs.begin(), arcs.end(), more);
+  const auto text = [](int n) { return n ? std::to_string(n) : fmt::format("> {}", most_arcs_tried); };
+  return *least == *largest ? text(*least) : text(*least) + " to " + text(*largest);
 }
 
-const SweepReference& SegmentationData::reference(const std::string& load_case) const {
-  const auto found = std::find_if(references.begin(), references.end(),
-                                  [&](const SweepReference& r) { return r.load_case == load_case; });
-  if (found == references.end()) throw std::logic_error("no reference for " + load_case);
-  return *found;
+std::string arcs_table(const SegmentationData& data) {
+  std::vector<std::string> columns = {"arcs for a tip error below"};
+  for (const double limit_mm : arc_limits_mm) columns.push_back(fmt::format("{:g} mm", limit_mm));
+  Table table(columns);
+  const auto add = [&](const std::string& name, const std::string& law) {
+    for (const bool planar : {true, false}) {
+      std::vector<std::string> cells{name + (planar ? ", in a plane" : ", in space")};
+      for (const double limit_mm : arc_limits_mm) cells.push_back(arcs_cell(data, law, planar, limit_mm));
+      table.add(cells);
+    }
+  };
+  for (const SweepLaw& law : kirchhoff_laws()) add(law.label(), law.key);
+  add(method_row("fam").name + " takes", "fam");
+  return table.markdown();
 }
 
-std::vector<SweepPoint> SegmentationData::curve(const std::string& load_case, const std::string& law) const {
-  std::vector<SweepPoint> list;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(list),
-               [&](const SweepPoint& p) { return p.load_case == load_case && p.law == law; });
-  return list;
+std::string sweep_table(const SegmentationData& data) {
+  std::vector<std::string> columns = {"N"};
+  for (const SweepLaw& law : kirchhoff_laws()) columns.push_back(law.label());
+  for (const char* key : {"published", "fourth_order_reissner"}) columns.push_back(sweep_law(key).label() + " − FE");
+  Table table(columns);
+  for (const int arcs : {1, 2, 4, 12, 50, 100, 500, 1000, 5000, 100'000, 1'000'000}) {
+    std::vector<std::string> cells{std::to_string(arcs)};
+    for (const SweepLaw& law : kirchhoff_laws()) cells.push_back(error_of(data, law, arcs, &SweepPoint::exact_mm));
+    for (const char* key : {"published", "fourth_order_reissner"}) {
+      cells.push_back(error_of(data, sweep_law(key), arcs, &SweepPoint::fe_mm));
+    }
+    table.add(cells);
+  }
+  return table.markdown();
 }
 
-std::string observed_order(int coarse_arcs, double coarse_mm, int fine_arcs, double fine_mm) {
-  constexpr double resolved_mm = 1e-8;
-  if (std::min(coarse_mm, fine_mm) < resolved_mm) return "–";
-  return fixed(std::log(coarse_mm / fine_mm) / std::log(static_cast<double>(fine_arcs) / coarse_arcs), 2);
-}
-
-std::string error_text(double error_mm, int digits) {
-  return scientific(std::max(error_mm, error_floor_mm), digits);
+std::string times_table(const SegmentationData& data) {
+  Table table({"time of the march on P4, µs", "4 arcs", "12", "100", "1000"});
+  for (const SweepLaw& law : sweep_laws()) {
+    std::vector<std::string> cells{law.label()};
+    for (const SweepTime& t : data.times) {
+      const bool wanted = t.arcs == 4 || t.arcs == 12 || t.arcs == 100 || t.arcs == 1000;
+      if (t.law == law.key && wanted) cells.push_back(significant(t.timing.median_us, 3));
+    }
+    table.add(cells);
+  }
+  return table.markdown();
 }
 
 std::map<std::string, std::string> segmentation_tables(const SegmentationData& data) {
   return {{"sweep_p4.csv", sweep_csv(data, true)},  {"sweep_cases.csv", sweep_csv(data, false)},
-          {"references.csv", references_csv(data)}, {"budget.csv", budget_csv(data)},
-          {"shapes.csv", shapes_csv(data)},         {"timing.csv", timing_csv(data)}};
+          {"references.csv", references_csv(data)}, {"fewest_arcs.csv", fewest_csv(data)},
+          {"budget.csv", budget_csv(data)},         {"shapes.csv", shapes_csv(data)},
+          {"timing.csv", timing_csv(data)}};
 }
 
 }  // namespace studies

@@ -1,300 +1,153 @@
-#include "studies/torsion/page.h"
-
+#include "studies/report/page.h"
+#include "studies/report/answers.h"
+#include "studies/report/error_text.h"
+#include "studies/report/provenance.h"
 #include "studies/report/table.h"
-#include "studies/segmentation/data.h"
+#include "studies/torsion/data.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace studies {
 namespace {
 
-const std::string ours =
-    "S1 with a follower torque about x at its tip; loads of our own, the paper's are lost. mm, N mm.";
-const std::string floor_line = "Errors below 4e-11 mm (1e-12 L) are written as 4e-11.";
-constexpr double assumed_density_kg_per_m3 = 1000;  // the paper gives none
-constexpr double failed_share = 0.1;                // of L: what the page calls a failure
+const double T = largest_printed_Nmm;
 
-std::string cell(double error_mm, int digits) {
-  return std::isfinite(error_mm) ? error_text(error_mm, digits) : "–";
+std::string share_of_L(const TorsionData& data, double error_mm) {
+  return significant(100 * error_mm / data.rod.length_mm, 2) + " %";
 }
 
-std::string tips_csv(const TorsionData& data) {
-  Table table(
-      {"torque_Nmm", "twist_TL_GJ_rad", "method", "status", "x_mm", "y_mm", "z_mm", "error_own_mm", "error_fe_mm"});
-  for (const TorsionTip& t : data.tips) {
-    const auto position = [&](int axis) { return t.status == "converged" ? fixed(t.position_mm[axis], 5) : ""; };
-    table.add({fixed(t.torque_Nmm, 0), fixed(t.torque_Nmm * data.rod.length_mm / data.rod.torsion_Nmm2, 2), t.method,
-               t.status, position(0), position(1), position(2), cell(t.own_mm, 2), cell(t.fe_mm, 2)});
-  }
-  return table.csv({ours, floor_line,
-                    "error_own: against the exact solution of the method's own rod model; error_fe: against 50 "
-                    "quadratic finite elements with shear and stretch."});
+std::string arcs_text(const TorsionData& data, const std::string& law, double limit_mm) {
+  const int arcs = data.fewest_arcs(T, law, limit_mm);
+  return arcs ? std::to_string(arcs) : "more than 100 000";
 }
 
-std::string orders_csv(const TorsionData& data) {
-  Table table({"torque_Nmm", "law", "arcs", "error_mm", "order"});
-  const TorsionOrder* last = nullptr;
-  for (const TorsionOrder& o : data.orders) {
-    const bool follows = last != nullptr && last->law == o.law && last->torque_Nmm == o.torque_Nmm;
-    table.add({fixed(o.torque_Nmm, 0), o.law, std::to_string(o.arcs), cell(o.own_mm, 2),
-               follows ? observed_order(last->arcs, last->own_mm, o.arcs, o.own_mm) : "–"});
-    last = &o;
-  }
-  return table.csv({ours, floor_line, "Against the exact Kirchhoff rod; order: from the row before."});
+std::string vector_text(const Eigen::Vector3d& v) {
+  return for_reader(fmt::format("({:g}, {:g}, {:g})", v[0], v[1], v[2]));
 }
 
-std::string arcs_csv(const TorsionData& data) {
-  Table table({"torque_Nmm", "law", "limit_mm", "fewest_arcs"});
-  for (const TorsionArcs& a : data.arcs) {
-    table.add({fixed(a.torque_Nmm, 0), a.law, fixed(a.limit_mm, 3), a.arcs ? std::to_string(a.arcs) : ">100000"});
-  }
-  return table.csv({ours, "Fewest arcs with a tip error under the limit against the exact Kirchhoff rod."});
-}
-
-// T / (m g r_g) of the whole flexure.
-double normalised_torque(const TorsionRod& rod, double torque_Nmm) {
-  const double mass_kg = 1e-9 * assumed_density_kg_per_m3 * rod.section_area_mm2 * rod.length_mm;
-  return torque_Nmm / (mass_kg * 9.81 * rod.gyration_radius_mm);
-}
-
-// The paper's Table 3 in form.
-std::string comparison_table(const TorsionData& data) {
-  Table table({"T, N mm", "T L/GJ, rad", "T/(m g r_g), ρ assumed", "FAM x", "y", "z", "FE x", "y", "z", "FAM − FE, mm",
-               "% of L", "own error, mm", "% of L"});
+bool grows(const TorsionData& data, const std::string& method) {
+  double last = 0;
   for (const double torque : data.torques_Nmm) {
-    if (torque > 50) continue;
-    const TorsionTip &fam = data.tip(torque, "bend_twist_12"), &fe = data.tip(torque, "fe");
-    std::vector<std::string> cells{fixed(torque, 0), fixed(torque * data.rod.length_mm / data.rod.torsion_Nmm2, 1),
-                                   fixed(normalised_torque(data.rod, torque), 0)};
-    for (const TorsionTip* t : {&fam, &fe}) {
-      for (int axis = 0; axis < 3; ++axis) cells.push_back(fixed(t->position_mm[axis], 3));
-    }
-    for (const double error : {fam.fe_mm, fam.own_mm}) {
-      cells.push_back(fixed(error, 3));
-      cells.push_back(fixed(100 * error / data.rod.length_mm, 2));
-    }
-    table.add(cells);
+    if (torque > T) break;
+    const double error = data.own_mm(torque, method);
+    if (!(error > last)) return false;
+    last = error;
   }
-  return table.markdown();
+  return true;
 }
 
-std::string methods_table(const TorsionData& data) {
-  Table table({"T, N mm", "bend, twist 12", "50", "500", "twist, bend 12", "50", "500", "midpoint 12", "50",
-               "fourth_order 12", "50", "sixth_order 12", "shear and stretch", "FE − exact"});
+// Of the paper's range.
+double torque_of_least_error(const TorsionData& data, const std::string& method) {
+  double at = 0;
   for (const double torque : data.torques_Nmm) {
-    std::vector<std::string> cells{fixed(torque, 0)};
-    for (const char* method :
-         {"bend_twist_12", "bend_twist_50", "bend_twist_500", "twist_bend_12", "twist_bend_50", "twist_bend_500",
-          "midpoint_12", "midpoint_50", "fourth_order_12", "fourth_order_50", "sixth_order_12"}) {
-      cells.push_back(cell(data.tip(torque, method).own_mm, 1));
-    }
-    const Eigen::Vector3d& kirchhoff = data.tip(torque, "exact_kirchhoff").position_mm;
-    cells.push_back(cell((data.tip(torque, "exact_reissner").position_mm - kirchhoff).norm(), 1));
-    cells.push_back(cell(data.tip(torque, "fe").own_mm, 1));
-    table.add(cells);
+    if (torque <= T && data.own_mm(torque, method) < data.own_mm(at, method)) at = torque;
   }
-  return table.markdown();
+  return at;
 }
 
-double order_error(const TorsionData& data, double torque, const std::string& law, int arcs) {
-  for (const TorsionOrder& o : data.orders) {
-    if (o.torque_Nmm == torque && o.law == law && o.arcs == arcs) return o.own_mm;
+// Whether all observed orders at these torques are those that theory gives.
+bool orders_as_in_theory(const TorsionData& data) {
+  const double theory[] = {1, 1, 2, 4, 6};
+  for (std::size_t i = 0; i < torsion_laws().size(); ++i) {
+    const std::string order = data.order_of(T, torsion_laws()[i].key);
+    if (order == "–" || std::abs(std::stod(order) - theory[i]) > 0.1) return false;
   }
-  return NAN;
+  return true;
 }
 
-// Over the last doubling whose errors are above round-off.
-std::string order_of(const TorsionData& data, double torque, const std::string& law) {
-  std::string order = "–";
-  for (const int arcs : {24, 48, 96, 192}) {
-    const std::string here =
-        observed_order(arcs / 2, order_error(data, torque, law, arcs / 2), arcs, order_error(data, torque, law, arcs));
-    if (here != "–") order = here;
-  }
-  return order;
+double time_us(const TorsionData& data, const std::string& scene, const std::string& law) {
+  return data.time(scene, law, law == "fam" ? 0 : 12).median_us;
 }
 
-std::string arcs_of(const TorsionData& data, double torque, const std::string& law, double limit_mm) {
-  for (const TorsionArcs& a : data.arcs) {
-    if (a.torque_Nmm == torque && a.law == law && a.limit_mm == limit_mm) {
-      return a.arcs ? std::to_string(a.arcs) : "> 100 000";
-    }
+// "1.1 to 1.3": least and largest over the laws of time in one scene over that in another.
+std::string time_ratios(const TorsionData& data, const std::string& scene, const std::string& over) {
+  double least = INFINITY, largest = 0;
+  for (const TorsionLaw& law : torsion_laws()) {
+    const double ratio = time_us(data, scene, law.key) / time_us(data, over, law.key);
+    least = std::min(least, ratio), largest = std::max(largest, ratio);
   }
-  return "–";
+  return fixed(least, 2) + " to " + fixed(largest, 2);
 }
 
-std::string orders_table(const TorsionData& data) {
-  Table table({"T, N mm", "law", "error at N = 12, mm", "N = 48", "N = 192", "order", "arcs for 0.1 mm", "0.01 mm",
-               "0.001 mm"});
-  for (const double torque : {0.0, 20.0, 50.0}) {
-    for (const std::string& law : torsion_laws()) {
-      std::vector<std::string> cells{fixed(torque, 0), law};
-      for (const int arcs : {12, 48, 192}) cells.push_back(cell(order_error(data, torque, law, arcs), 1));
-      cells.push_back(order_of(data, torque, law));
-      for (const double limit : {0.1, 0.01, 0.001}) cells.push_back(arcs_of(data, torque, law, limit));
-      table.add(cells);
-    }
-  }
-  return table.markdown();
+std::string orders_at_zero(const TorsionData& data) {
+  return data.order_of(0, "bend_twist") + " and " + data.order_of(0, "twist_bend");
 }
 
-// Errors of FAM are round-off, of which one machine has another than the next.
-Table tilts(const TorsionData& data) {
-  Table table({"T, N mm", "tip x", "y", "z", "straight tendons x", "y", "z", "they are off by, mm", "FAM − exact, mm",
-               "FAM − FE, mm"});
-  for (const TendonTilt& t : data.tilts) {
-    std::vector<std::string> cells{fixed(t.torque_Nmm, 0)};
-    for (const Eigen::Vector3d* tip : {&t.tip_mm, &t.straight_tip_mm}) {
-      for (const double x : *tip) cells.push_back(fixed(x, 3));
-    }
-    cells.push_back(fixed((t.tip_mm - t.straight_tip_mm).norm(), 3));
-    cells.push_back(t.exact_mm < 1e-7 ? "< 1e-7" : scientific(t.exact_mm, 0));
-    cells.push_back(t.fe_mm < 1e-7 ? "< 1e-7" : scientific(t.fe_mm, 0));
-    table.add(cells);
-  }
-  return table;
+void set_scene(Page& page, const TorsionData& data) {
+  const TorsionRod& rod = data.rod;
+  page.set("length", fmt::format("{:g}", rod.length_mm));
+  page.set("diameter", fmt::format("{:g}", rod.diameter_mm));
+  page.set("EI", fixed(rod.bending_Nmm2, 0));
+  page.set("GJ", fixed(rod.torsion_Nmm2, 0));
+  page.set("force", vector_text(rod.tip_force_N));
+  page.set("moment", vector_text(rod.tip_moment_Nmm));
+  page.set("twist50", fixed(T * rod.length_mm / rod.torsion_Nmm2, 1));
+  page.set("twist_last", fixed(data.torques_Nmm.back() * rod.length_mm / rod.torsion_Nmm2, 0));
+  page.set("gyration", fmt::format("{:g}", rod.diameter_mm / 4));
 }
 
-// The first torque at which a method does not converge or is off by more than a tenth of L.
-std::string fails_from(const TorsionData& data, const std::string& method) {
-  for (const double torque : data.torques_Nmm) {
-    const TorsionTip& t = data.tip(torque, method);
-    if (t.status != "converged") return fixed(torque, 0) + " (" + t.status + ")";
-    if (t.own_mm > failed_share * data.rod.length_mm) return fixed(torque, 0);
-  }
-  return "none up to " + fixed(data.torques_Nmm.back(), 0);
+void set_errors(Page& page, const TorsionData& data) {
+  const auto own = [&](double torque, const std::string& law) {
+    return error_for_reader(data.own_mm(torque, law + "_12"));
+  };
+  page.set("published", own(T, "bend_twist"));
+  page.set("published_share", share_of_L(data, data.own_mm(T, "bend_twist_12")));
+  page.set("twist_first", own(T, "twist_bend"));
+  page.set("sixth", own(T, "sixth_order"));
+  page.set("published_0", own(0, "bend_twist"));
+  page.set("published_arcs", arcs_text(data, "bend_twist", 0.1));
+  page.set("twist_first_arcs", arcs_text(data, "twist_bend", 0.1));
+  page.set("sixth_arcs", arcs_text(data, "sixth_order", 0.1));
+  page.check("grows", grows(data, "bend_twist_12"));
+  const double least = torque_of_least_error(data, "twist_bend_12");
+  page.check("dips", least > 0 && least < T);
+  page.set("least_at", fixed(least, 0));
+  page.check("orders", orders_as_in_theory(data));
+  page.set("orders_at_zero", orders_at_zero(data));
+  page.set("tilt50", fixed((data.tilts.back().tip_mm - data.tilts.back().straight_tip_mm).norm(), 1));
 }
 
-std::string failures_table(const TorsionData& data) {
-  Table table({"method", "tip off by more than 10 % of L from T, N mm"});
-  for (const char* method : {"bend_twist_12", "bend_twist_50", "bend_twist_500", "twist_bend_12", "twist_bend_50",
-                             "twist_bend_500", "midpoint_12", "midpoint_50", "midpoint_500", "fourth_order_12",
-                             "fourth_order_50", "fourth_order_500", "sixth_order_12", "sixth_order_50", "fe"}) {
-    table.add({method, fails_from(data, method)});
+void set_times(Page& page, const TorsionData& data) {
+  page.set_time("machine", machine_line());
+  page.set_time("torque_over_space", time_ratios(data, "torque", "space"));
+  page.set_time("space_over_plane", time_ratios(data, "space", "plane"));
+  for (const char* scene : {"plane", "space", "torque"}) {
+    page.set_time(fmt::format("solve_{}", scene), time_text(time_us(data, scene, "fam")));
+    page.set_time(fmt::format("sixth_{}", scene), time_text(time_us(data, scene, "sixth_order")));
   }
-  return table.markdown();
+  page.set_time("repeats", std::to_string(data.times.front().timing.repeats));
 }
 
-std::string page(const TorsionData& data) {
-  const auto own = [&](double torque, const std::string& method) { return cell(data.tip(torque, method).own_mm, 1); };
+std::string answer(const TorsionData& data) {
+  const auto own = [&](const std::string& law) { return error_for_reader(data.own_mm(T, law + "_12")); };
+  const auto time = [&](const std::string& law) {
+    return timed(time_text(time_us(data, "plane", law)) + " in a plane, " + time_text(time_us(data, "space", law)) +
+                 " in space, " + time_text(time_us(data, "torque", law)) + " with the torque");
+  };
   return fmt::format(
-      R"(# A torque at the tip: what decoupled bending and twist cost
-
-The published method lets each arc bend in a plane and then twists it about its tangent (or the other way round; the
-paper does not say), as if the two did not act on each other. The paper's check is its spatial load case 1 with a torque at
-the tip from 0 to 50 mN·m (N mm); printed there: the error grows with the torque. The values of its Table 3 are lost.
-
-**The loads are ours**: S1 is a rod of 40 × 6 mm, EI = 1500 and GJ = 1000 N mm², with a follower force (0, 1, 0) N and a moment
-(0, −25, 0) N mm at the tip; the follower torque T about the tip's tangent is added to it. T L/GJ is the twist that T
-alone would give: {twist50} rad at 50 N mm.
-
-![Shapes at some torques](shapes.svg)
-
-## The paper's Table 3, in form
-
-Published law with 12 arcs, bend then twist, beside 50 quadratic finite elements with shear and stretch. *Own error*:
-against the exact Kirchhoff rod, the same rod model. The paper divides the torque by m g r_g without giving a density; the
-third column **assumes** {density:.0f} kg/m³ and takes m as the whole flexure's mass, r_g = d/4 = {gyration} mm, g = 9.81 m/s².
-
-{comparison}
-As printed for its loads, so here: the error grows with the torque, from {bt0} mm without torque to {bt50} mm at 50 N mm
-(own error, bend then twist) and, after a dip, from {tb0} to {tb50} mm (twist then bend; all torques in the last table). With the same 12 arcs, coupled bending and
-twist give {mid50} mm (midpoint), {four50} mm (fourth_order) and {six50} mm (sixth_order) at 50 N mm.
-
-![Tip error over torque](errors.svg)
-
-## Why: first order against second, fourth and sixth
-
-Bending by β and twisting by α are rotations about different axes, and such rotations do not commute: applied one after
-the other they miss the joint motion by about αβ/2 an arc. α and β are both proportional to h = L/N, so an arc errs by h² and N
-arcs by N h² = L h: **first order**. The other laws turn each section by one rotation vector that holds
-bend and twist together. Observed orders, over the finest doubling of N whose errors are above round-off:
-
-{orders}
-Without torque S1 still has a torsion moment inside the rod (the force acts beside the bent rod), so the published law is
-first order there too. In the plane (P1–P8) nothing twists and it is second order
-([segmentation](../segmentation/README.md)).
-
-![Tip error over N](orders.svg)
-
-What it costs: at 50 N mm the published law needs {bt_arcs} arcs (twist then bend: {tb_arcs}) for 0.01 mm, midpoint {mid_arcs},
-fourth_order {four_arcs}, sixth_order {six_arcs}.
-
-## On to where something fails
-
-Tip error in mm against the exact Kirchhoff rod; *shear and stretch*: exact Reissner − exact Kirchhoff rod; *FE − exact*: the
-finite elements against the exact rod with shear and stretch.
-
-{methods}
-{failures}
-1000 N mm would twist the rod by {twist1000} rad: the last rows test the arithmetic, not a robot. Beyond some 150 N mm the
-published law with 12 arcs turns each arc so far that its error no longer grows but wanders.
-
-## Tendons under torsion
-
-A frictionless tendon pulls along its own tangent v + u × r (Rucker and Webster 2011). Torsion tilts it round the rod,
-which stiffens the rod by about T r² and takes from the bending. Three tendons of 6, 3 and 1.5 N at 3 mm
-(`studies/cases/torsion/three_tendons.json`: 40 mm, EI = 750, GJ = 577 N mm²) and a follower torque at the tip; *straight tendons*:
-the form that leaves the tilt out, a constant moment −r × T e_x. It is off by **{tilt50} mm at 50 N mm**.
-
-{tilts}
-## Files
-
-`tips.csv`, `orders.csv`, `arcs.csv`, `tendons.csv`; `provenance.json`. Rerun: `build/release/bin/fam-studies torsion`. There are no times
-here; an arc costs the same with and without torque ([times](../segmentation/timing.md)).
-)",
-      fmt::arg("twist50", fixed(50 * data.rod.length_mm / data.rod.torsion_Nmm2, 1)),
-      fmt::arg("twist1000", fixed(1000 * data.rod.length_mm / data.rod.torsion_Nmm2, 0)),
-      fmt::arg("density", assumed_density_kg_per_m3), fmt::arg("gyration", fixed(data.rod.gyration_radius_mm, 1)),
-      fmt::arg("comparison", comparison_table(data)), fmt::arg("bt0", own(0, "bend_twist_12")),
-      fmt::arg("bt50", own(50, "bend_twist_12")), fmt::arg("tb0", own(0, "twist_bend_12")),
-      fmt::arg("tb50", own(50, "twist_bend_12")), fmt::arg("mid50", own(50, "midpoint_12")),
-      fmt::arg("four50", own(50, "fourth_order_12")), fmt::arg("orders", orders_table(data)),
-      fmt::arg("bt_arcs", arcs_of(data, 50, "bend_twist", 0.01)),
-      fmt::arg("tb_arcs", arcs_of(data, 50, "twist_bend", 0.01)),
-      fmt::arg("mid_arcs", arcs_of(data, 50, "midpoint", 0.01)),
-      fmt::arg("tilt50", fixed((data.tilts.back().tip_mm - data.tilts.back().straight_tip_mm).norm(), 1)),
-      fmt::arg("tilts", tilts(data).markdown()), fmt::arg("six50", own(50, "sixth_order_12")),
-      fmt::arg("six_arcs", arcs_of(data, 50, "sixth_order", 0.01)),
-      fmt::arg("four_arcs", arcs_of(data, 50, "fourth_order", 0.01)), fmt::arg("methods", methods_table(data)),
-      fmt::arg("failures", failures_table(data)));
-}
-
-std::string headline(const TorsionData& data) {
-  const auto own = [&](const std::string& method) { return cell(data.tip(50, method).own_mm, 1); };
-  return fmt::format(
-      "## [Torsion](torsion/README.md): what decoupled bending and twist cost\n\n"
-      "Spatial case S1 (our loads) with a follower torque of 50 N mm at the tip, 12 arcs: the published law is {} mm "
-      "off "
-      "its own rod model (bend then twist) or {} mm (twist then bend), coupled arcs {} mm (midpoint) and {} mm "
-      "(fourth_order). Decoupled arcs are first order in space: for 0.01 mm they need {} arcs, fourth-order ones "
-      "{}.\n\n"
-      "![Tip error over torque](torsion/errors.svg)\n",
-      own("bend_twist_12"), own("twist_bend_12"), own("midpoint_12"), own("fourth_order_12"),
-      arcs_of(data, 50, "bend_twist", 0.01), arcs_of(data, 50, "fourth_order", 0.01));
+      "Error at 50 N mm (S1, 12 arcs): FAM published {} mm ({} of L; twisting first {} mm), FAM sixth order {} mm; for "
+      "0.1 mm they need {} (twisting first {}) and {} arcs. Time: 12 arcs of FAM sixth order {}; `fam solve` {}.",
+      own("bend_twist"), share_of_L(data, data.own_mm(T, "bend_twist_12")), own("twist_bend"), own("sixth_order"),
+      arcs_text(data, "bend_twist", 0.1), arcs_text(data, "twist_bend", 0.1), arcs_text(data, "sixth_order", 0.1),
+      time("sixth_order"), time("fam"));
 }
 
 }  // namespace
 
-const std::vector<std::string>& torsion_laws() {
-  static const std::vector<std::string> laws = {"bend_twist", "twist_bend", "midpoint", "fourth_order", "sixth_order"};
-  return laws;
-}
-
-const TorsionTip& TorsionData::tip(double torque_Nmm, const std::string& method) const {
-  const auto found = std::find_if(
-      tips.begin(), tips.end(), [&](const TorsionTip& t) { return t.torque_Nmm == torque_Nmm && t.method == method; });
-  if (found == tips.end()) throw std::logic_error("no tip of " + method);
-  return *found;
-}
-
-std::map<std::string, std::string> torsion_files(const TorsionData& data) {
-  return {{"README.md", page(data)},        {"headline.md", headline(data)}, {"tips.csv", tips_csv(data)},
-          {"orders.csv", orders_csv(data)}, {"arcs.csv", arcs_csv(data)},    {"tendons.csv", tilts(data).csv()}};
+std::map<std::string, std::string> torsion_pages(const TorsionData& data, const std::filesystem::path& page_md) {
+  Page page;
+  set_scene(page, data);
+  set_errors(page, data);
+  set_times(page, data);
+  page.set("laws", laws_table(data));
+  page.set_time("times", times_table(data));
+  page.set("printed", printed_table(data));
+  page.set("beyond", beyond_table(data));
+  page.set("tilts", tilts_table(data));
+  return {{"README.md", page.fill(page_md)}, {answers_file, answers_json({{"cost", answer(data)}})}};
 }
 
 }  // namespace studies

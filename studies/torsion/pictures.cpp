@@ -1,6 +1,6 @@
 #include "studies/report/chart.h"
-#include "studies/report/shape_chart.h"
-#include "studies/torsion/page.h"
+#include "studies/report/table.h"
+#include "studies/torsion/data.h"
 
 #include <fmt/format.h>
 
@@ -10,97 +10,124 @@
 namespace studies {
 namespace {
 
-struct Series {
-  const char *method, *name;
-  std::string colour, dash;
-  double TorsionTip::*error;
-};
+// The published law's second order of rotations is dashed.
+Stroke stroke_of(const TorsionLaw& law) {
+  return {law.row.style.colour, 1.8, law.twist_first ? "5 3" : law.row.style.dash};
+}
 
-const std::vector<Series> own_series = {
-    {"bend_twist_12", "published 12, bend then twist", colour::blue, "", &TorsionTip::own_mm},
-    {"twist_bend_12", "published 12, twist then bend", colour::sky, "", &TorsionTip::own_mm},
-    {"bend_twist_500", "published 500, bend then twist", colour::blue, "5 3", &TorsionTip::own_mm},
-    {"midpoint_12", "midpoint 12", colour::green, "", &TorsionTip::own_mm},
-    {"fourth_order_12", "fourth_order 12", colour::orange, "", &TorsionTip::own_mm},
-    {"sixth_order_12", "sixth_order 12", colour::black, "", &TorsionTip::own_mm}};
+double missing_shear_mm(const TorsionData& data, double torque_Nmm) {
+  return (data.tip(torque_Nmm, "exact_reissner").position_mm - data.tip(torque_Nmm, "exact_kirchhoff").position_mm)
+      .norm();
+}
 
-const std::vector<Series> fe_series = {
-    {"bend_twist_12", "published 12 − FE", colour::blue, "", &TorsionTip::fe_mm},
-    {"twist_bend_12", "twist then bend 12 − FE", colour::sky, "", &TorsionTip::fe_mm},
-    {"fourth_order_12", "fourth_order 12 − FE", colour::orange, "", &TorsionTip::fe_mm},
-    {"fourth_order_reissner_50", "fourth_order 50 with shear − FE", colour::purple, "", &TorsionTip::fe_mm}};
-
-void draw(Panel& panel, const TorsionData& data, const std::vector<Series>& series, double largest_Nmm) {
-  for (const Series& s : series) {
+void draw_errors(Svg& svg, double top, const std::string& title, const TorsionData& data, double largest_Nmm,
+                 double named_at_Nmm) {
+  constexpr double lowest_mm = 1e-9, highest_mm = 1000;
+  Panel panel(svg, {80, top}, 590, 300, {"torque at the tip, N mm", 0, largest_Nmm},
+              {"tip error, mm", lowest_mm, highest_mm, true});
+  panel.frame(title);
+  std::vector<Point> shear;
+  for (const double torque : data.torques_Nmm) {
+    if (torque <= largest_Nmm) shear.push_back({torque, std::max(missing_shear_mm(data, torque), lowest_mm)});
+  }
+  panel.curve(shear, {colour::grey, 1.5, "2 3"});
+  if (largest_Nmm == largest_printed_Nmm) panel.name(shear.back(), "shear and stretch", colour::grey);
+  for (const TorsionLaw& law : torsion_laws()) {
     std::vector<Point> points;
     for (const double torque : data.torques_Nmm) {
-      const double error = data.tip(torque, s.method).*(s.error);
-      if (torque <= largest_Nmm && std::isfinite(error)) points.push_back({torque, std::max(error, 1e-9)});
+      const double error = data.own_mm(torque, law.key + "_12");
+      if (torque > largest_Nmm) continue;
+      if (std::isfinite(error)) points.push_back({torque, std::max(error, lowest_mm)});
+      else panel.failure({torque, highest_mm}, law.row.style.colour);
     }
-    panel.curve(points, {s.colour, 1.6, s.dash});
-    panel.dots(points, s.colour, 2.5);
-    panel.name(points.back(), s.name, s.colour);
+    panel.curve(points, stroke_of(law));
+    panel.dots(points, law.row.style.colour, 2.5);
+    const auto named = std::find_if(points.begin(), points.end(),
+                                    [&](const Point& p) { return p.x >= named_at_Nmm + (law.twist_first ? 200 : 0); });
+    panel.name(named == points.end() ? points.back() : *named, law.label(), law.row.style.colour);
   }
   panel.place_names();
 }
 
 std::string error_picture(const TorsionData& data) {
-  Svg svg(1330, 930, "Case S1 (our loads) with a follower torque at the tip: tip error",
-          "Case S1 (our loads) with a follower torque at the tip: tip error");
-  const Axis error{"tip error, mm", 1e-8, 100, true}, small{"torque, N mm", 0, 50}, all{"torque, N mm", 0, 1000};
-  Panel own(svg, {80, 66}, 350, 340, small, error), fe(svg, {720, 66}, 350, 340, small, error);
-  own.frame("The paper's range, against the exact Kirchhoff rod");
-  draw(own, data, own_series, 50);
-  fe.frame("The same, against finite elements with shear");
-  draw(fe, data, fe_series, 50);
-  Panel far(svg, {80, 500}, 350, 340, all, error), far_fe(svg, {720, 500}, 350, 340, all, error);
-  far.frame("Beyond it, against the exact Kirchhoff rod");
-  draw(far, data, own_series, 1000);
-  far_fe.frame("The same, against finite elements with shear");
-  draw(far_fe, data, fe_series, 1000);
+  Svg svg(880, 820, "Tip error with 12 arcs over the torque at the tip, case S1 (our loads)",
+          "Two charts of the tip error in mm, logarithmic, over the follower torque: above from 0 to 50 N mm, the "
+          "paper's range, below to 1000 N mm. Curves: FAM published in both orders of its "
+          "rotations, midpoint, fourth order, sixth order, each with 12 arcs, and a dotted line for what shear and "
+          "stretch move the tip. Look at the distance between the published law and the others.",
+          "against the exact Kirchhoff rod; dotted grey: what shear and stretch, left out, would move the tip; "
+          "x: no answer");
+  draw_errors(svg, 80, "The paper's range", data, largest_printed_Nmm, largest_printed_Nmm);
+  draw_errors(svg, 470, "On to where something fails", data, data.torques_Nmm.back(), 300);
   return svg.str();
 }
 
 std::string order_picture(const TorsionData& data) {
-  Svg svg(1010, 470, "Case S1 (our loads): tip error over N, against the exact Kirchhoff rod",
-          "Case S1 (our loads): tip error over N, against the exact Kirchhoff rod");
-  const std::vector<std::string> colours = {colour::blue, colour::sky, colour::green, colour::orange, colour::black};
-  const std::vector<std::string> names = {"bend, twist", "twist, bend", "midpoint", "fourth_order", "sixth_order"};
-  double left = 80;
-  for (const double torque : {0.0, 50.0}) {
-    Panel panel(svg, {left, 66}, 320, 340, {"number of arcs N", 3, 200, true}, {"tip error, mm", 1e-10, 100, true});
-    panel.frame(fmt::format("torque {} N mm", torque));
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      std::vector<Point> points;
-      for (const TorsionOrder& o : data.orders) {
-        if (o.torque_Nmm == torque && o.law == torsion_laws()[i] && o.own_mm > 1e-9) {
-          points.push_back({static_cast<double>(o.arcs), o.own_mm});
-        }
+  Svg svg(880, 450, "Tip error over the number of arcs, 50 N mm at the tip of S1 (our loads)",
+          "One chart of the tip error in mm over the number of arcs from 3 to 192, both logarithmic. Straight falling "
+          "lines, the steeper the higher the order: FAM published in both orders of its rotations falls slowest, then "
+          "midpoint, fourth order and, steepest, sixth order.",
+          "against the exact Kirchhoff rod; a law of order p falls by 2^p at each doubling");
+  Panel panel(svg, {80, 80}, 590, 310, {"number of arcs N", 2.5, 220, true}, {"tip error, mm", 1e-9, 100, true});
+  panel.frame();
+  for (const TorsionLaw& law : torsion_laws()) {
+    std::vector<Point> points;
+    for (const TorsionOrder& o : data.orders) {
+      if (o.torque_Nmm == largest_printed_Nmm && o.law == law.key && o.own_mm > 1e-9) {
+        points.push_back({static_cast<double>(o.arcs), o.own_mm});
       }
-      panel.curve(points, {colours[i], 1.6, ""});
-      panel.dots(points, colours[i], 2.5);
-      panel.name(points.back(), names[i], colours[i]);
     }
-    panel.place_names();
-    left += 490;
+    if (points.empty()) continue;
+    panel.curve(points, stroke_of(law));
+    panel.dots(points, law.row.style.colour, 2.5);
+    panel.name(points.back(), law.label(), law.row.style.colour);
   }
+  panel.place_names();
   return svg.str();
 }
 
-std::string shapes_picture(const TorsionData& data) {
-  const std::map<double, std::string> colours = {
-      {0, colour::blue}, {20, colour::green}, {50, colour::orange}, {200, colour::purple}};
-  std::vector<Centreline> lines;
+std::vector<Point> projected(const TorsionShape& shape, int right, int up) {
+  std::vector<Point> points;
+  for (const Eigen::Vector3d& p : shape.positions_mm) points.push_back({p[right], p[up]});
+  return points;
+}
+
+void draw_shapes(Svg& svg, double left, const TorsionData& data, int right, int up) {
+  const char* axes[] = {"x, mm", "y, mm", "z, mm"};
+  Axis x{axes[right], 0, 0}, y{axes[up], 0, 0};
   for (const TorsionShape& shape : data.shapes) {
-    const bool exact = shape.method == "exact_kirchhoff";
-    Centreline line{exact ? "" : fmt::format("{} N mm", shape.torque_Nmm), {}, colours.at(shape.torque_Nmm), "", exact};
-    for (std::size_t i = 0; i < shape.positions_mm.size(); i += exact ? 4 : 1) {
-      line.positions_B_mm.push_back(shape.positions_mm[i]);
+    for (const Point& p : projected(shape, right, up)) {
+      x.low = std::min(x.low, p.x - 3), x.high = std::max(x.high, p.x + 3);
+      y.low = std::min(y.low, p.y - 3), y.high = std::max(y.high, p.y + 3);
     }
-    lines.push_back(std::move(line));
   }
-  return shape_chart(lines, {{0, 1}, {0, 2}, {1, 2}}, "Case S1 (our loads) with a torque at the tip",
-                     "lines: published law, 12 arcs, bend then twist; dots: exact Kirchhoff rod");
+  equal_scale(x, y, 330, 330);
+  Panel panel(svg, {left, 80}, 330, 330, x, y);
+  panel.frame();
+  const Style& published = method_row("fam_published").style;
+  for (const TorsionShape& shape : data.shapes) {
+    std::vector<Point> points = projected(shape, right, up);
+    if (shape.method == "exact_kirchhoff") {
+      std::vector<Point> few;
+      for (std::size_t i = 0; i < points.size(); i += 4) few.push_back(points[i]);
+      panel.dots(few, method_row("exact").style.colour, 2.4);
+    } else {
+      panel.curve(points, {published.colour, 1.8, published.dash});
+      panel.name(points.back(), fmt::format("{} N mm", shape.torque_Nmm), published.colour);
+    }
+  }
+  panel.place_names();
+}
+
+std::string shapes_picture(const TorsionData& data) {
+  Svg svg(880, 470, "S1 (our loads) with a torque of 0, 20 and 50 N mm at the tip",
+          "Two views of the bent rod, x-y beside y-z, the clamp at the origin, for 0, 20 and 50 N mm. The torque "
+          "swings the tip round the rod's axis. Lines: FAM published with 12 arcs. Dots: the exact rod. Look at the "
+          "gap between line and dots towards the tip: it widens with the torque.",
+          "orange lines: FAM published, 12 arcs, bending first; black dots: exact, Kirchhoff");
+  draw_shapes(svg, 80, data, 0, 1);
+  draw_shapes(svg, 510, data, 1, 2);
+  return svg.str();
 }
 
 }  // namespace
