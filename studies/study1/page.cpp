@@ -149,6 +149,7 @@ void set_fixed(Page& page, const Study1Data& data) {
   page.set("frame_least", fixed(apart.empty() ? NAN : quantile(apart, 0), 2));
   page.set("frame_most", fixed(largest(apart), 2));
   page.set("frame_median", fixed(median(apart), 2));
+  page.check("frame_matters", median(apart) > median(distances_mm(data, study1_cases(), "follower", fam12, "fe")));
   page.set("fam_fe_median", fixed(median(distances_mm(data, study1_cases(), "follower", fam12, "fe")), 2));
 }
 

@@ -15,8 +15,8 @@ class Study1 {
 
   void run() {
     for (const Study1Group& group : study1_groups()) {
-      for (const std::string& load_case : study1_cases()) {
-        for (const std::string frame : {"follower", "fixed"}) solve_case(group, load_case, frame);
+      for (const std::string frame : {"follower", "fixed"}) {
+        for (const std::string& load_case : study1_cases()) solve_case(group, load_case, frame);
       }
     }
     write_results(options_.output / "study1", "fam-studies study1",

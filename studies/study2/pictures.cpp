@@ -33,14 +33,14 @@ Axis deflection_axis(const Study2Data& data) {
       axis.high = std::max(axis.high, p.y);
     }
   }
-  const double margin = 0.12 * (axis.high - axis.low);
+  const double margin = 0.14 * (axis.high - axis.low);
   axis.low -= margin;
   axis.high += margin;
   return axis;
 }
 
-// The lateral forces along y as arrows that end at the curve of the forces alone, with their values.
-void draw_forces(Svg& svg, const Panel& panel, const Study2Data& data) {
+// The lateral forces along y as arrows that start at the curve of the forces alone, with their values.
+void draw_forces(Svg& svg, Panel& panel, const Study2Data& data, const Axis& axis) {
   const Study2Row& exact = row(data, "study2", "exact");
   for (const scene::Load& load : data.forces_alone.loads) {
     const auto* force = std::get_if<scene::Force>(&load);
@@ -48,13 +48,22 @@ void draw_forces(Svg& svg, const Panel& panel, const Study2Data& data) {
     std::size_t i = 0;
     while (i + 1 < exact.s_mm.size() && exact.s_mm[i] < force->at_mm - 1e-6) ++i;
     const double up = force->value_N[1] > 0 ? 1 : -1;
-    const Point end = panel.at({exact.s_mm[i], exact.positions_mm[i][1]});
-    const Point tip{end.x, end.y + 5 * up};
-    svg.line({tip.x, tip.y + 30 * up}, tip, {colour::purple, 1.6, ""});
-    svg.polygon({tip, {tip.x - 4, tip.y + 9 * up}, {tip.x + 4, tip.y + 9 * up}}, colour::purple);
-    svg.text({tip.x, tip.y + (up > 0 ? 44.0 : -36.0)}, for_reader(fmt::format("{:.3g} N", force->value_N[1])),
-             Anchor::middle, 12, colour::purple);
+    const Point from{exact.s_mm[i], exact.positions_mm[i][1]};
+    const Point to{from.x, from.y + 0.1 * up * (axis.high - axis.low)};
+    panel.curve({from, to}, {colour::purple, 1.6, ""});
+    const Point tip = panel.at(to);
+    svg.polygon({{tip.x, tip.y - 6 * up}, {tip.x - 4, tip.y + 3 * up}, {tip.x + 4, tip.y + 3 * up}}, colour::purple);
+    panel.name(to, for_reader(fmt::format("{:.3g} N", force->value_N[1])), colour::purple);
   }
+}
+
+std::string tips_text(const Study2Data& data) {
+  std::string text;
+  for (const Curve& c : curves) {
+    const std::vector<Point> points = deflections(row(data, c.scene, "exact"), c.axis);
+    if (!points.empty()) text += fmt::format("{}{} {}", text.empty() ? "" : "; ", c.name, fixed(points.back().y, 0));
+  }
+  return text;
 }
 
 }  // namespace
@@ -62,11 +71,13 @@ void draw_forces(Svg& svg, const Panel& panel, const Study2Data& data) {
 std::string deflection_picture(const Study2Data& data) {
   Svg svg(900, 480, "Study II: deflection along the catheter, forces of our own",
           "Deflection in mm over arc length in mm. Black lines, the exact rod: y under the three forces alone; y with "
-          "the catheter's weight along −y, which bends it down by more than a hundred millimetres; y and z with the "
-          "weight along −z. Orange dots on the first line: FAM published with 12 arcs. Arrows: the three forces.",
+          "the catheter's weight along −y; y and z with the weight along −z. At the tip, mm: " +
+              tips_text(data) +
+              ". Orange dots on the first line: FAM published with 12 arcs. Arrows: the three forces.",
           "lines: exact; dots: FAM published, 12 arcs, frames given; arrows: the forces");
   const double length_mm = scene::length_mm(data.forces_alone);
-  Panel panel(svg, {80, 64}, 620, 350, {"arc length s, mm", 0, length_mm, false}, deflection_axis(data));
+  const Axis axis = deflection_axis(data);
+  Panel panel(svg, {80, 64}, 620, 350, {"arc length s, mm", 0, length_mm, false}, axis);
   panel.frame();
   for (const Curve& c : curves) {
     const std::vector<Point> points = deflections(row(data, c.scene, "exact"), c.axis);
@@ -75,33 +86,36 @@ std::string deflection_picture(const Study2Data& data) {
     panel.name(points.back(), c.name, method_row("exact").style.colour);
   }
   panel.dots(deflections(row(data, "study2", "fam_published_12"), 1, 2), method_row("fam_published").style.colour, 3);
-  draw_forces(svg, panel, data);
+  draw_forces(svg, panel, data, axis);
   panel.place_names();
   return svg.str();
 }
 
 std::string errors_picture(const Study2Data& data) {
-  struct Series {
-    const char *method, *dash;
-  };
   constexpr double floor = 1e-8;
+  const std::vector<std::pair<std::string, std::string>> series = {
+      {"fam_published_12", ""}, {"fam_published_50", "5 3"}, {"fam", "2 3"},
+      {"fam_1e-3", "9 3 2 3"},  {"exact_kirchhoff", "5 3"},  {"fe", ""}};
+  std::string largest;
+  for (const auto& [method, dash] : series) {
+    largest += fmt::format("{}{} {}", largest.empty() ? "" : "; ", study2_label(method),
+                           scientific(largest_error_mm(row(data, "study2", method)), 1));
+  }
   Svg svg(900, 460, "Study II, forces alone: distance from the exact rod along the catheter",
-          "Distance from the exact rod in mm, logarithmic, over arc length in mm. FAM published with 12 arcs lies "
-          "highest and with 50 arcs below it; then the automatic choices of FAM, the exact rod without shear and "
-          "stretch, and FE. All errors grow in the first third and stay of that size to the tip.",
-          "the published law is given the forces in the frames of the bent sections");
+          "Distance from the exact rod in mm, logarithmic, over arc length in mm, a curve a method. Largest, mm: " +
+              largest + ".",
+          "FAM published is given the forces in the frames of the bent sections");
   Panel panel(svg, {80, 64}, 600, 330, {"arc length s, mm", 0, scene::length_mm(data.forces_alone), false},
               {"distance, mm", floor, 1, true});
   panel.frame();
-  for (const Series& s : {Series{"fam_published_12", ""}, Series{"fam_published_50", "5 3"}, Series{"fam", "2 3"},
-                          Series{"fam_1e-3", "9 3 2 3"}, Series{"exact_kirchhoff", "5 3"}, Series{"fe", ""}}) {
-    const Study2Row& r = row(data, "study2", s.method);
+  for (const auto& [method, dash] : series) {
+    const Study2Row& r = row(data, "study2", method);
     std::vector<Point> points;
     for (std::size_t i = 1; i < r.s_mm.size(); ++i) points.push_back({r.s_mm[i], std::max(r.errors_mm[i], floor)});
     if (points.empty()) continue;
-    const std::string& colour = method_row(study2_method(s.method).row).style.colour;
-    panel.curve(points, {colour, 1.6, s.dash});
-    panel.name(points.back(), study2_label(s.method), colour);
+    const std::string& colour = method_row(study2_method(method).row).style.colour;
+    panel.curve(points, {colour, 1.6, dash});
+    panel.name(points.back(), study2_label(method), colour);
   }
   panel.place_names();
   return svg.str();
