@@ -128,7 +128,11 @@ std::string errors_picture(const Study1Data& data) {
           "cases, P1 to P8 planar, S1 to S8 spatial. One row of dots a method. Medians in mm: " +
               medians_text(data, series) + ".",
           "dots on the lowest line: less than 1e-9 mm");
-  Panel panel(svg, corner, width, height, {"load case", 0.5, 16.5, false}, {"distance, mm", floor, 10, true});
+  double most = 10;
+  for (const Series& s : series) {
+    for (const double d : distances_mm(data, study1_cases(), "follower", s.a, s.b)) most = std::max(most, d);
+  }
+  Panel panel(svg, corner, width, height, {"load case", 0.5, 16.5, false}, {"distance, mm", floor, most, true});
   panel.frame();
   name_cases(svg, panel, corner, width, height);
   for (const Series& s : series) draw_series(panel, data, s, floor);
