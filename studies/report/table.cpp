@@ -26,7 +26,7 @@ std::string csv_line(const std::vector<std::string>& cells) {
 }  // namespace
 
 std::string for_reader(const std::string& text) {
-  static const std::regex exponent("([0-9])e([-+]?)0*([0-9]+)"), minus("(^|[\\s(|>±])-([0-9.])");
+  static const std::regex exponent("([0-9])e\\+?(-?)0*([0-9]+)"), minus("(^|[\\s(|>±])-([0-9.])");
   return std::regex_replace(std::regex_replace(text, exponent, "$1e$2$3"), minus, "$1−$2");
 }
 

@@ -1,27 +1,22 @@
-// The tables, pictures and page of Study II, as pure functions of what was solved.
+// The files of Study II, as functions of what was solved: tables.cpp, pictures.cpp, page.cpp.
 #pragma once
 
-#include "studies/compare/stopwatch.h"
+#include "studies/study2/data.h"
 
-#include <Eigen/Core>
-
+#include <filesystem>
 #include <map>
-#include <string>
-#include <vector>
 
 namespace studies {
 
-// A solve: scene "study2", "study2_gravity_y" or "study2_gravity_z". The shape, and its difference from the exact one,
-// at the exact solution's stations; empty where the method did not converge.
-struct Study2Row {
-  std::string scene, method, status;
-  std::vector<double> s_mm;
-  std::vector<Eigen::Vector3d> positions_mm;  // base frame
-  std::vector<double> errors_mm;
-  Timing timing;
-};
+// File name to content: page, tables, pictures, answers.
+std::map<std::string, std::string> study2_files(const Study2Data& data, const std::filesystem::path& page_md);
 
-// File name to content.
-std::map<std::string, std::string> study2_files(const std::vector<Study2Row>& rows);
+std::map<std::string, std::string> study2_csv(const Study2Data& data);  // shapes, errors, errors_along, timing
+
+std::string errors_table(const Study2Data& data);  // Markdown: largest error of each method on each scene
+std::string times_table(const Study2Data& data);   // Markdown, marked
+
+std::string deflection_picture(const Study2Data& data);  // SVG
+std::string errors_picture(const Study2Data& data);      // SVG: distance from the exact rod along the catheter
 
 }  // namespace studies

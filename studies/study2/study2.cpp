@@ -1,30 +1,21 @@
-// fam-studies study2: reads studies/cases/study2/study2*.json, solves each by the methods below, writes results/study2:
-// shapes.csv, errors.csv, pictures, README.md; timing.csv and timing.md apart. A few seconds.
+// fam-studies study2: reads studies/cases/study2/study2*.json, solves each with the methods of study2_groups(),
+// compares the shapes with the exact one and writes results/study2.
+#include "studies/compare/error_measures.h"
+#include "studies/report/provenance.h"
 #include "studies/scenes/cases.h"
 #include "studies/study.h"
-
-#include "studies/compare/error_measures.h"
-#include "studies/methods/exact_method.h"
-#include "studies/methods/fam_method.h"
-#include "studies/methods/fem_method.h"
-#include "studies/report/output_file.h"
-#include "studies/report/provenance.h"
 #include "studies/study2/page.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace studies {
 namespace {
 
-fam::Options automatic(double tolerance_mm) {
-  fam::Options options;
-  options.tolerance_mm = tolerance_mm;
-  return options;
-}
-
-fam::Options published(int arcs) {
-  fam::Options options;
-  options.law = fam::Law::published;
-  options.arcs = arcs;
-  return options;
+bool has_station(const scene::Equilibrium& result, double s_mm) {
+  const double hair_mm = 1e-9 * result.stations.back().s_mm;
+  return std::any_of(result.stations.begin(), result.stations.end(),
+                     [&](const scene::Station& station) { return std::abs(station.s_mm - s_mm) < hair_mm; });
 }
 
 // The frames that the published law needs: each fixed force as a follower force with the components that it has in the
@@ -45,48 +36,54 @@ scene::Scene in_section_frames(scene::Scene scene, const scene::Equilibrium& sol
 
 class Study2 {
  public:
-  explicit Study2(const StudyOptions& options) : options_(options), progress_("study2", 3, options.progress) {}
+  explicit Study2(const StudyOptions& options)
+      : options_(options), progress_("study2", study2_scenes.size() * study2_groups().size(), options.progress) {}
 
   void run() {
-    for (const char* name : {"study2", "study2_gravity_y", "study2_gravity_z"}) solve_scene(name);
-    write_results(options_.output / "study2", "fam-studies study2", study2_files(rows_));
+    for (const auto& group : study2_groups()) {
+      for (const std::string& name : study2_scenes) solve_scene(group, name);
+    }
+    data_.forces_alone = read("study2");
+    data_.with_weight = read("study2_gravity_y");
+    write_results(options_.output / "study2", "fam-studies study2",
+                  study2_files(data_, options_.pages / "study2" / "page.md"));
   }
 
  private:
-  void solve_scene(const std::string& name) {
+  scene::Scene read(const std::string& name) const { return read_case(options_.cases, "study2/" + name); }
+
+  void solve_scene(const std::vector<Study2Method>& group, const std::string& name) {
     progress_.step(name);
-    const scene::Scene scene = read_case(options_.cases, "study2/" + name);
-    const scene::Equilibrium exact = exact_reference::solve(scene);
-    exact_reference::Options kirchhoff;
-    kirchhoff.model = exact_reference::RodModel::kirchhoff;
-    add(name, "exact", *exact_method({}), scene, exact);
-    add(name, "exact_kirchhoff", *exact_method(kirchhoff), scene, exact);
-    add(name, "fe", *fem_method({}), scene, exact);
-    add(name, "fam_1e-3", *fam_method(automatic(1e-3)), scene, exact);
-    add(name, "fam_1e-6", *fam_method(automatic(1e-6)), scene, exact);
-    const scene::Scene frames = in_section_frames(scene, fam::solve(scene, automatic(1e-6)));
-    for (const int arcs : {12, 50}) {
-      add(name, "fam_published_" + std::to_string(arcs), *fam_method(published(arcs)), frames, exact);
+    const scene::Scene scene = read(name);
+    const double length_mm = scene::length_mm(scene);
+    const scene::Equilibrium exact = method_row("exact")()->solve(scene);
+    const auto precise = method_row("fam")({.tolerance = 1e-6 / length_mm});
+    const scene::Scene in_frames = in_section_frames(scene, precise->solve(scene));
+    for (const Study2Method& m : group) {
+      Request request = m.request;
+      request.tolerance = m.tolerance_mm / length_mm;
+      add(name, m.key, *method_row(m.row)(request), m.section_frames ? in_frames : scene, exact);
     }
   }
 
-  void add(const std::string& name, const std::string& method_name, const Method& method, const scene::Scene& scene,
+  void add(const std::string& name, const std::string& key, const Method& method, const scene::Scene& scene,
            const scene::Equilibrium& exact) {
     const scene::Equilibrium result = method.solve(scene);
-    Study2Row row{name, method_name, scene::name(result.status), {}, {}, {}, {}};
+    Study2Row row{name, key, scene::name(result.status), {}, {}, {}, false, {}};
     if (result.converged()) {
       for (const scene::Station& station : exact.stations) {
         row.s_mm.push_back(station.s_mm);
         row.positions_mm.push_back(position_at_mm(result, station.s_mm));
         row.errors_mm.push_back((row.positions_mm.back() - station.X_BS.position_B_mm).norm());
+        row.interpolated = row.interpolated || !has_station(result, station.s_mm);
       }
+      row.timing = time_of(options_, method.bare_solve(scene), 0.1);
     }
-    if (result.converged()) row.timing = time_of(options_, method.bare_solve(scene), 0.1);
-    rows_.push_back(std::move(row));
+    data_.rows.push_back(std::move(row));
   }
 
   StudyOptions options_;
-  std::vector<Study2Row> rows_;
+  Study2Data data_;
   Progress progress_;
 };
 
