@@ -19,7 +19,7 @@ namespace studies {
           row(benchmarks, "Do all methods give the numbers that others have published?", "40 s", false)  \
               row(segmentation, "How many arcs shall I take?", "20 s", false)                            \
                   row(torsion, "What does torsion cost, in error and in time?", "10 s", false)           \
-                      row(study2, "How good is FAM on a catheter of three sections?", "10 s", false)     \
+                      row(study2, "How good is FAM on a catheter?", "10 s", false)     \
                           row(work_precision, "Which method is fastest at my accuracy?", "3 min", false) \
                               row(stability, "Where does each method fail?", "1 min", false)             \
                                   row(random, "Is an answer ever wrong without saying so?", "30 min", true)
