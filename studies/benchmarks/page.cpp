@@ -1,6 +1,8 @@
-#include "studies/benchmarks/page.h"
+#include "studies/benchmarks/data.h"
 
-#include "studies/report/provenance.h"
+#include "studies/compare/error_measures.h"
+#include "studies/report/answers.h"
+#include "studies/report/page.h"
 #include "studies/report/table.h"
 
 #include <fmt/format.h>
@@ -11,257 +13,335 @@
 namespace studies {
 namespace {
 
-constexpr std::size_t longest_table = 28;  // rows on the page; the CSV has all
+using Results = std::vector<BenchmarkResult>;
 
-std::string without_commas(std::string text) {
-  std::replace(text.begin(), text.end(), ',', ';');
-  return text;
+const BenchmarkResult& result_of(const Results& results, const std::string& key) {
+  return *std::find_if(results.begin(), results.end(),
+                       [&](const BenchmarkResult& result) { return result.benchmark.key == key; });
 }
 
-// Ten digits at most: beyond lies round-off.
-int decimals_printed(const BenchmarkRow& row, std::size_t i) {
-  const int leading = static_cast<int>(std::floor(std::log10(row.point.scale)));
-  return std::clamp(row.point.published[i].decimals, 0, 9 - leading);
+std::string rounded(double value) {
+  return for_reader(significant(value, 2));
 }
 
-// Two more decimals than a print that is worth its digits, so that a difference shows.
-int decimals_shown(const BenchmarkRow& row, std::size_t i) {
-  const int leading = static_cast<int>(std::floor(std::log10(row.point.scale)));
-  const int more = row.point.digits < 10 ? 0 : 2;
-  return std::clamp(decimals_printed(row, i) + more, 0, 9 - leading);
+std::string digits_text(double digits) {
+  return fixed(digits, 1);
 }
 
-std::string published_text(const BenchmarkRow& row) {
-  std::string text;
-  for (std::size_t i = 0; i < row.point.published.size(); ++i) {
-    text += (i > 0 ? " " : "") + fixed(row.point.published[i].value, decimals_printed(row, i));
+// Differences of the exact reference, in the rows' order; without those that it did not solve.
+std::vector<double> exact_differences(const BenchmarkRows& rows) {
+  std::vector<double> differences;
+  for (const BenchmarkRow* row : rows) {
+    if (row->found[by_exact].solved()) differences.push_back(difference(*row, by_exact));
   }
-  return text;
+  return differences;
 }
 
-std::string value_text(const BenchmarkRow& row, std::size_t method) {
-  const BenchmarkFound& found = row.found[method];
-  std::string text;
-  for (std::size_t i = 0; i < found.values.size(); ++i) {
-    text += (text.empty() ? "" : " ") + fixed(found.values[i], decimals_shown(row, i));
-  }
-  return text;
+double largest(const std::vector<double>& values) {
+  return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
 }
 
-bool solved(const BenchmarkFound& found) {
-  return found.status == "converged";
+bool all_full(const BenchmarkRows& rows, std::size_t method) {
+  const DigitSummary s = digit_summary(rows, method);
+  return s.full == s.points;
 }
 
-const BenchmarkSource& source_of(const BenchmarkResult& result, const std::string& key) {
-  return *std::find_if(result.benchmark.sources.begin(), result.benchmark.sources.end(),
-                       [&](const BenchmarkSource& s) { return s.key == key; });
+double norm_of(const std::vector<double>& values) {
+  double squares = 0;
+  for (const double value : values) squares += value * value;
+  return std::sqrt(squares);
 }
 
-std::string range(int low, int high) {
-  return low == high ? std::to_string(low) : fmt::format("{}–{}", low, high);
+// --- All sources together -------------------------------------------------------------------------------------------
+
+struct Totals {
+  int printed_sources = 0, independent_sources = 0;
+  BenchmarkRows printed, independent;
+  int same = 0;           // printed points on which all methods match the same tenth of a digit
+  bool exact_right;       // misses at most a tenth of a digit of each independent point that it solves
+  std::string deviating;  // sources on most of whose points the exact reference misses digits that they carry
+  int deviating_sources = 0;
+
+  bool sources_tell() const { return exact_right && same >= 0.95 * static_cast<double>(printed.size()); }
+};
+
+bool same_digits(const BenchmarkRow& row) {
+  return std::all_of(row.found.begin(), row.found.end(), [&](const BenchmarkFound& found) {
+    return found.solved() && digits_text(found.digits) == digits_text(row.found[by_exact].digits);
+  });
 }
 
-// --- CSV ------------------------------------------------------------------------------------------------------------
+void add_deviating(Totals& totals, const BenchmarkResult& result, const BenchmarkSource& source) {
+  const DigitSummary s = digit_summary(rows_of(result, source.key), by_exact);
+  if (2 * s.full >= s.points) return;
+  ++totals.deviating_sources;
+  totals.deviating +=
+      fmt::format("{}{} ({} of {}{})", totals.deviating.empty() ? "" : "; ", source.title, digits_text(s.median),
+                  s.most_carried, source.reason.empty() ? "" : ": " + source.reason);
+}
 
-std::string points_csv(const std::vector<BenchmarkResult>& results) {
-  std::vector<std::string> columns{"benchmark", "source", "worth", "point", "published", "digits_carried"};
-  for (const std::string& method : benchmark_methods()) {
-    for (const char* what : {"_status", "", "_digits"}) columns.push_back(method + what);
-  }
-  Table table(columns);
+Totals totals_of(const Results& results) {
+  Totals totals;
+  totals.printed = rows_where(results, [](const BenchmarkSource& s) { return !s.independent(); });
+  totals.independent = rows_where(results, [](const BenchmarkSource& s) { return s.independent(); });
+  totals.exact_right = std::all_of(totals.independent.begin(), totals.independent.end(), [](const BenchmarkRow* row) {
+    return !row->found[by_exact].solved() || row->found[by_exact].digits > row->carried - 0.1;
+  });
+  for (const BenchmarkRow* row : totals.printed) totals.same += same_digits(*row) ? 1 : 0;
   for (const BenchmarkResult& result : results) {
-    for (const BenchmarkRow& row : result.rows) {
-      std::vector<std::string> cells{result.benchmark.key,
-                                     row.point.source,
-                                     source_of(result, row.point.source).worth,
-                                     without_commas(row.point.label),
-                                     published_text(row),
-                                     std::to_string(row.carried)};
-      for (std::size_t m = 0; m < row.found.size(); ++m) {
-        cells.push_back(row.found[m].status);
-        cells.push_back(value_text(row, m));
-        cells.push_back(solved(row.found[m]) ? fixed(row.found[m].digits, 1) : "");
-      }
-      table.add(cells);
-    }
-  }
-  return table.csv({"Quantities and units: README.md. Digits: -log10 of the relative error, at most what is carried."});
-}
-
-std::string lines_csv(const std::vector<BenchmarkResult>& results) {
-  Table table({"benchmark", "family", "parameter", "values"});
-  for (const BenchmarkResult& result : results) {
-    for (const BenchmarkLine& line : result.lines) {
-      for (const std::vector<double>& sample : line.samples) {
-        std::string values;
-        for (std::size_t i = 1; i < sample.size(); ++i) values += (i > 1 ? " " : "") + fixed(sample[i], 5);
-        table.add({result.benchmark.key, line.family, fmt::format("{:.6g}", sample[0]), values});
-      }
-    }
-  }
-  return table.csv(
-      {"The exact lines of the pictures. critical: load factor - 1, and 1 stable, 0 not, -1 not decided."});
-}
-
-std::string timing_csv(const std::vector<BenchmarkResult>& results) {
-  Table table({"benchmark", "method", "median_us", "lower_quartile_us", "upper_quartile_us", "repeats"});
-  for (const BenchmarkResult& result : results) {
-    for (std::size_t m = 0; m < result.times.size(); ++m) {
-      const Timing& t = result.times[m];
-      table.add({result.benchmark.key, benchmark_methods()[m], fixed(t.median_us, 3), fixed(t.lower_quartile_us, 3),
-                 fixed(t.upper_quartile_us, 3), std::to_string(t.repeats)});
-    }
-  }
-  return table.csv({machine_line(), "The bare solve of the point that timing.md names; repeats 0: no solution."});
-}
-
-// --- Markdown -------------------------------------------------------------------------------------------------------
-
-std::string digits_cell(const DigitSummary& s) {
-  if (s.solved == 0) return "–";
-  if (s.points == 1) return fixed(s.median, 1);
-  return fmt::format("{} ({})", fixed(s.median, 1), fixed(s.lowest, 1));
-}
-
-// "all", or which methods failed where.
-std::string status_cell(const BenchmarkResult& result, const std::string& source) {
-  std::string text;
-  for (std::size_t m = 0; m < benchmark_methods().size(); ++m) {
-    const DigitSummary s = digit_summary(result, source, m);
-    if (s.solved == s.points) continue;
-    text += fmt::format("{}{}: {} of {} {}", text.empty() ? "" : "; ", benchmark_methods()[m], s.points - s.solved,
-                        s.points, s.failure);
-  }
-  return text.empty() ? "all converged" : text;
-}
-
-Table overview(const std::vector<BenchmarkResult>& results, bool linked) {
-  Table table({"case", "source", "worth", "digits carried", "points", "exact", "FE", "FAM", "status"});
-  for (const BenchmarkResult& result : results) {
-    const std::string title =
-        linked ? fmt::format("[{}](#{})", result.benchmark.title, result.benchmark.key) : result.benchmark.key;
     for (const BenchmarkSource& source : result.benchmark.sources) {
-      std::vector<std::string> cells{title, linked ? source.title : source.key, source.worth};
-      const DigitSummary exact = digit_summary(result, source.key, 0);
-      cells.push_back(range(exact.fewest_carried, exact.most_carried));
-      cells.push_back(std::to_string(exact.points));
-      for (std::size_t m = 0; m < benchmark_methods().size(); ++m) {
-        cells.push_back(digits_cell(digit_summary(result, source.key, m)));
-      }
-      cells.push_back(status_cell(result, source.key));
-      table.add(cells);
+      ++(source.independent() ? totals.independent_sources : totals.printed_sources);
+      if (!source.independent()) add_deviating(totals, result, source);
     }
   }
-  return table;
+  return totals;
 }
 
-std::string source_table(const BenchmarkResult& result, const BenchmarkSource& source) {
-  std::vector<const BenchmarkRow*> rows;
-  for (const BenchmarkRow& row : result.rows) {
-    if (row.point.source == source.key) rows.push_back(&row);
-  }
-  const std::size_t step = (rows.size() + longest_table - 1) / longest_table;
-  Table table({"point", "published", "carries", "exact", "digits", "FE", "digits", "FAM", "digits"});
-  for (std::size_t i = 0; i < rows.size(); i += step) {
-    const BenchmarkRow& row = *rows[i];
-    std::vector<std::string> cells{row.point.label, published_text(row), std::to_string(row.carried)};
-    for (std::size_t m = 0; m < row.found.size(); ++m) {
-      cells.push_back(solved(row.found[m]) ? value_text(row, m) : row.found[m].status);
-      cells.push_back(solved(row.found[m]) ? fixed(row.found[m].digits, 1) : "–");
-    }
-    table.add(cells);
-  }
-  const std::string left_out =
-      step > 1 ? fmt::format(" (here one in {} of {} points; all are in points.csv)", step, rows.size()) : "";
-  return fmt::format("**{}**, {}{}:\n\n{}\n", source.title, source.worth, left_out, table.markdown());
+// "10.0 (6.0)": median and lowest.
+std::string digits_of(const BenchmarkRows& rows, std::size_t method) {
+  const DigitSummary s = digit_summary(rows, method);
+  return fmt::format("{} ({})", digits_text(s.median), digits_text(s.lowest));
 }
 
-std::string section(const BenchmarkResult& result) {
-  const Benchmark& b = result.benchmark;
-  std::string text = fmt::format(
-      "<a id=\"{0}\"></a>\n## {1}\n\n{2}\nQuantities: {3}. FE: {4} quadratic elements; FAM: {4} fourth-order arcs. "
-      "Scene: `studies/cases/benchmarks/{5}.json`.\n\n![{1}]({0}.svg)\n\n",
-      b.key, b.title, benchmark_text(b.key), b.quantities, b.elements, b.scene);
-  if (b.key == "follower") text += "![Shapes under follower forces](follower_shapes.svg)\n\n";
-  for (const BenchmarkSource& source : b.sources) text += source_table(result, source);
+std::string unsolved(const Totals& totals) {
+  std::string text;
+  BenchmarkRows rows = totals.printed;
+  rows.insert(rows.end(), totals.independent.begin(), totals.independent.end());
+  for (std::size_t m = 0; m < benchmark_methods().size(); ++m) {
+    const DigitSummary s = digit_summary(rows, m);
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", benchmark_methods()[m].row.name, s.points - s.solved);
+  }
   return text;
 }
 
-std::string page(const std::vector<BenchmarkResult>& results) {
-  std::string text = fmt::format("{}\n{}\n", benchmark_text("page"), overview(results, true).markdown());
-  for (const BenchmarkResult& result : results) text += section(result);
-  return text + benchmark_text("files");
+void set_totals(Page& page, const Totals& t) {
+  page.check("exact_right", t.exact_right);
+  page.check("sources_tell", t.sources_tell());
+  page.check("deviating", t.deviating_sources > 0);
+  page.set("printed_sources", std::to_string(t.printed_sources));
+  page.set("printed_points", std::to_string(t.printed.size()));
+  page.set("printed_exact", digits_of(t.printed, by_exact));
+  page.set("printed_fe", digits_of(t.printed, by_fe));
+  page.set("printed_fam", digits_of(t.printed, by_fam));
+  page.set("printed_full", std::to_string(digit_summary(t.printed, by_exact).full));
+  page.set("same", std::to_string(t.same));
+  page.set("independent_sources", std::to_string(t.independent_sources));
+  page.set("independent_points", std::to_string(t.independent.size()));
+  page.set("independent_exact", digits_of(t.independent, by_exact));
+  page.set("independent_fe", digits_of(t.independent, by_fe));
+  page.set("independent_fam", digits_of(t.independent, by_fam));
+  page.set("deviating_sources", std::to_string(t.deviating_sources));
+  page.set("deviating_list", t.deviating);
+  page.set("unsolved", unsolved(t));
 }
 
-std::string headline(const std::vector<BenchmarkResult>& results) {
-  int points = 0, fam_solved = 0;
-  for (const BenchmarkResult& result : results) {
-    for (const BenchmarkRow& row : result.rows) {
-      ++points;
-      fam_solved += solved(row.found[2]) ? 1 : 0;
-    }
-  }
+std::string answer(const Totals& t) {
   return fmt::format(
-      R"(## [Benchmarks](benchmarks/README.md): {} published cases, {} points
-
-Exact reference, finite elements and FAM beside what others printed, in matching digits. FAM solves {} of the
-points; the others stay in the tables with their status. Some differences are the sources': the published tips of the
-45° bend belong to two torsion constants, and two rows of PyElastica's follower table are off.
-
-![45° bend: published tips and the torsion constant](benchmarks/bend45.svg)
-)",
-      results.size(), points, fam_solved);
+      "{} points of {} printed, digitised or measured sources: {} digits in the median (lowest {}), the same by exact, "
+      "FE and FAM on {}{}. {} points of {} closed forms and independent solvers: exact {}, FE {}, FAM automatic {}.",
+      t.printed.size(), t.printed_sources, digits_text(digit_summary(t.printed, by_exact).median),
+      digits_text(digit_summary(t.printed, by_exact).lowest), t.same,
+      t.deviating_sources > 0 ? fmt::format("; {} sources deviate{}: {}", t.deviating_sources,
+                                            t.sources_tell() ? " by what they are" : "", t.deviating)
+                              : "",
+      t.independent.size(), t.independent_sources, digits_of(t.independent, by_exact), digits_of(t.independent, by_fe),
+      digits_of(t.independent, by_fam));
 }
 
-std::string timing_page(const std::vector<BenchmarkResult>& results) {
-  Table table({"case", "point", "exact", "FE", "FAM"});
-  for (const BenchmarkResult& result : results) {
-    std::vector<std::string> cells{result.benchmark.title,
-                                   fmt::format("{} {:g}", result.benchmark.timed.first, result.benchmark.timed.second)};
-    for (const Timing& t : result.times) {
-      cells.push_back(t.repeats == 0 ? "–"
-                                     : fmt::format("{} ({} … {})", fixed(t.median_us, 1), fixed(t.lower_quartile_us, 1),
-                                                   fixed(t.upper_quartile_us, 1)));
-    }
-    table.add(cells);
+// --- One benchmark after the other ----------------------------------------------------------------------------------
+
+void set_planar(Page& page, const Results& results) {
+  const BenchmarkResult &rollup = result_of(results, "rollup"), &elastica = result_of(results, "elastica");
+  page.check("rollup_fam_full", all_full(rows_of(rollup, "closed"), by_fam));
+  page.check("mattiasson_full", all_full(rows_of(elastica, "mattiasson"), by_exact));
+  const BenchmarkRows sze = rows_of(elastica, "sze");
+  std::vector<double> differences = exact_differences(sze);
+  page.set("sze_largest", rounded(largest(differences)));
+  page.set("sze_least", rounded(differences.empty() ? 0 : *std::min_element(differences.begin(), differences.end())));
+  const BenchmarkResult& thick = result_of(results, "thick");
+  std::string digits;
+  for (const BenchmarkRow* row : rows_of(thick, "exudyn")) {
+    digits += fmt::format("{}{} at {}", digits.empty() ? "" : ", ", digits_text(row->found[by_exact].digits),
+                          row->point.label);
   }
-  return fmt::format(
-      "# Benchmarks: times\n\n{}. Microseconds, warm: median (quartiles) of one solve of the point named (family and\n"
-      "parameter), with the elements and arcs that README.md states. **Not** at equal accuracy. FAM: the march alone; "
-      "–: no solution.\n\n{}",
-      machine_line(), table.markdown());
+  page.set("thick_digits", digits);
+}
+
+// Rows of a load whose printed points are, one by one, those of the load before: a slip of the digitised file.
+BenchmarkRows repeated(const BenchmarkRows& rows, const std::string& family, const std::string& before) {
+  std::vector<std::pair<double, double>> of_before;
+  BenchmarkRows found;
+  for (const BenchmarkRow* row : rows) {
+    const std::pair<double, double> p{row->point.published[0].value, row->point.published[1].value};
+    if (row->point.family == before) of_before.push_back(p);
+    const bool again = std::find(of_before.begin(), of_before.end(), p) != of_before.end();
+    if (row->point.family == family && again) found.push_back(row);
+  }
+  return found;
+}
+
+void set_follower(Page& page, const Results& results) {
+  const BenchmarkRows argyris = rows_of(result_of(results, "follower"), "argyris");
+  const BenchmarkRows again = repeated(argyris, "shape_94.5", "shape_80");
+  BenchmarkRows others;
+  for (const BenchmarkRow* row : argyris) {
+    if (std::find(again.begin(), again.end(), row) == again.end()) others.push_back(row);
+  }
+  page.check("argyris_slip", !again.empty());
+  page.set("argyris_repeated", std::to_string(again.size()));
+  page.set("argyris_median", rounded(quantile(exact_differences(argyris), 0.5)));
+  page.set("argyris_others", rounded(largest(exact_differences(others))));
+}
+
+void set_heavy(Page& page, const Results& results) {
+  const BenchmarkResult& heavy = result_of(results, "heavy");
+  page.set("pyelastica_fixed", rounded(largest(exact_differences(rows_of(heavy, "conservative")))));
+  BenchmarkRows rows;
+  for (const BenchmarkRow* row : rows_of(heavy, "follower")) {
+    if (row->found[by_exact].solved()) rows.push_back(row);
+  }
+  std::sort(rows.begin(), rows.end(), [](const BenchmarkRow* a, const BenchmarkRow* b) {
+    return difference(*a, by_exact) * a->point.scale > difference(*b, by_exact) * b->point.scale;
+  });
+  const auto over_length = [&](std::size_t i) {
+    return rows.size() > i ? difference(*rows[i], by_exact) * rows[i]->point.scale : 0;
+  };
+  for (const std::size_t i : {0u, 1u}) {
+    const std::string number = i == 0 ? "first" : "second";
+    page.set("pyelastica_" + number, rounded(over_length(i)));
+    page.set("pyelastica_" + number + "_load", rows.size() > i ? fmt::format("{:g}", rows[i]->point.parameter) : "–");
+  }
+  page.set("pyelastica_others", rounded(over_length(2)));
+}
+
+// The published tips at F = 600 that match all their digits with one of the torsion constants.
+std::string matching_tips(const BenchmarkResult& bend45, const std::string& source) {
+  std::string list;
+  for (const BenchmarkRow* row : rows_of(bend45, source)) {
+    const BenchmarkFound& exact = row->found[by_exact];
+    if (row->point.parameter != 600 || !exact.solved() || exact.digits < row->carried) continue;
+    list += (list.empty() ? "" : ", ") + row->point.label.substr(0, row->point.label.find(", F"));
+  }
+  return list.empty() ? "none" : list;
+}
+
+void set_bend45(Page& page, const Results& results) {
+  const BenchmarkResult& bend45 = result_of(results, "bend45");
+  const auto& samples = bend45.lines.front().samples;
+  std::vector<double> moved;
+  for (std::size_t i = 1; i < samples.front().size(); ++i) {
+    moved.push_back(samples.back()[i] - samples.front()[i]);
+  }
+  page.set("bend45_moved", rounded(norm_of(moved)));
+  const BenchmarkRows polar = rows_of(bend45, "published_polar"), st_venant = rows_of(bend45, "published_st_venant");
+  std::vector<double> nearest;
+  for (std::size_t i = 0; i < polar.size(); ++i) {
+    if (!polar[i]->found[by_exact].solved() || !st_venant[i]->found[by_exact].solved()) continue;
+    nearest.push_back(polar[i]->point.scale *
+                      std::min(difference(*polar[i], by_exact), difference(*st_venant[i], by_exact)));
+  }
+  page.set("bend45_nearest", rounded(quantile(nearest, 0.5)));
+  page.set("bend45_st_venant", matching_tips(bend45, "published_st_venant"));
+  page.set("bend45_polar", matching_tips(bend45, "published_polar"));
+}
+
+void set_princeton(Page& page, const Results& results) {
+  const BenchmarkResult& princeton = result_of(results, "princeton");
+  const BenchmarkRows solid = rows_of(princeton, "ansys_solid");
+  const bool stiffer = std::all_of(solid.begin(), solid.end(), [](const BenchmarkRow* row) {
+    const BenchmarkFound& exact = row->found[by_exact];
+    return exact.solved() && norm_of(exact.values) * (1 + 1e-9) > row->point.scale;
+  });
+  page.set("ansys_beam", digits_of(rows_of(princeton, "ansys_beam"), by_exact));
+  page.set("ansys_solid_percent", rounded(100 * largest(exact_differences(solid))));
+  page.check("ansys_solid_stiffer", stiffer);
+}
+
+// How far the published values of another source lie from the measured ones, percent.
+double percent_off_measured(const BenchmarkResult& pazy, const std::string& source) {
+  double most = 0;
+  for (const BenchmarkRow* row : rows_of(pazy, source)) {
+    for (const BenchmarkRow* measured : rows_of(pazy, "measured")) {
+      if (measured->point.label != row->point.label) continue;
+      const double truth = measured->point.published[0].value;
+      most = std::max(most, 100 * std::abs(row->point.published[0].value / truth - 1));
+    }
+  }
+  return most;
+}
+
+void set_pazy(Page& page, const Results& results) {
+  const BenchmarkResult& pazy = result_of(results, "pazy");
+  const BenchmarkRows measured = rows_of(pazy, "measured");
+  int stiffer = 0;
+  for (const BenchmarkRow* row : measured) {
+    const std::vector<double>& values = row->found[by_exact].values;
+    stiffer += !values.empty() && std::abs(values[0]) < std::abs(row->point.published[0].value) ? 1 : 0;
+  }
+  page.set("pazy_percent", rounded(100 * largest(exact_differences(measured))));
+  page.set("pazy_stiffer", std::to_string(stiffer));
+  page.set("pazy_points", std::to_string(measured.size()));
+  page.set("umnast_percent", rounded(percent_off_measured(pazy, "umnast")));
+  page.set("nastran_percent", rounded(percent_off_measured(pazy, "nastran")));
+}
+
+void set_critical(Page& page, const Results& results) {
+  const BenchmarkResult& critical = result_of(results, "critical");
+  const BenchmarkRow& beck = critical.rows.back();
+  const auto undecided = [](const BenchmarkFound& found) { return !found.solved(); };
+  page.check("beck_undecided", std::all_of(beck.found.begin(), beck.found.end(), undecided));
+  page.set("beck_flutter", fixed(beck.point.published[0].value, 2));
+  page.set("critical_table", critical_table(critical));
+}
+
+// Median over the cases, with the least and the most.
+std::string times_of(const Results& results, std::size_t method) {
+  std::vector<double> times_us;
+  for (const BenchmarkResult& result : results) {
+    if (result.times[method].repeats > 0) times_us.push_back(result.times[method].median_us);
+  }
+  if (times_us.empty()) return "–";
+  return fmt::format("{} {} ({} … {})", benchmark_methods()[method].row.name, time_text(quantile(times_us, 0.5)),
+                     time_text(quantile(times_us, 0)), time_text(quantile(times_us, 1)));
+}
+
+std::string page_of(const Results& results, const Totals& totals, const std::filesystem::path& page_md) {
+  Page page;
+  page.set("cases", std::to_string(results.size()));
+  page.set("elements", std::to_string(result_of(results, "rollup").benchmark.elements));
+  page.set("helix_elements", std::to_string(result_of(results, "helix").benchmark.elements));
+  page.set("fam_tolerance", for_reader(scientific(fam_tolerance, 0)));
+  set_totals(page, totals);
+  page.set("overview", benchmark_overview(results));
+  set_planar(page, results);
+  set_follower(page, results);
+  set_heavy(page, results);
+  set_bend45(page, results);
+  set_princeton(page, results);
+  set_pazy(page, results);
+  set_critical(page, results);
+  page.set_time("times", fmt::format("{}, {}, {}", times_of(results, by_exact), times_of(results, by_fe),
+                                     times_of(results, by_fam)));
+  return page.fill(page_md);
 }
 
 }  // namespace
 
-DigitSummary digit_summary(const BenchmarkResult& result, const std::string& source, std::size_t method) {
-  DigitSummary s;
-  std::vector<double> digits;
-  for (const BenchmarkRow& row : result.rows) {
-    if (row.point.source != source) continue;
-    s.fewest_carried = s.points == 0 ? row.carried : std::min(s.fewest_carried, row.carried);
-    s.most_carried = std::max(s.most_carried, row.carried);
-    ++s.points;
-    if (solved(row.found[method])) digits.push_back(row.found[method].digits);
-    else if (s.failure.empty()) s.failure = row.found[method].status;
+std::map<std::string, std::string> benchmark_files(const std::vector<BenchmarkResult>& results,
+                                                   const std::filesystem::path& page_md) {
+  const Totals totals = totals_of(results);
+  std::map<std::string, std::string> files{{"README.md", page_of(results, totals, page_md)},
+                                           {"answers.json", answers_json({{"published_numbers", answer(totals)}})},
+                                           {"points.csv", benchmark_points_csv(results)},
+                                           {"lines.csv", benchmark_lines_csv(results)},
+                                           {"overview.csv", benchmark_overview_csv(results)},
+                                           {"timing.csv", benchmark_timing_csv(results)},
+                                           {"digits.svg", digits_picture(results)},
+                                           {"follower_shapes.svg", shapes_picture(result_of(results, "follower"))},
+                                           {"bend45.svg", bend45_picture(result_of(results, "bend45"))}};
+  for (const char* key : {"rollup", "elastica", "follower", "heavy", "helix", "princeton", "pazy"}) {
+    files[std::string(key) + ".svg"] = differences_picture(result_of(results, key));
   }
-  s.solved = static_cast<int>(digits.size());
-  if (digits.empty()) return s;
-  std::sort(digits.begin(), digits.end());
-  s.lowest = digits.front();
-  s.median = (digits[(digits.size() - 1) / 2] + digits[digits.size() / 2]) / 2;
-  return s;
-}
-
-std::map<std::string, std::string> benchmark_files(const std::vector<BenchmarkResult>& results) {
-  std::map<std::string, std::string> files = benchmark_pictures(results);
-  files["README.md"] = page(results);
-  files["headline.md"] = headline(results);
-  files["points.csv"] = points_csv(results);
-  files["lines.csv"] = lines_csv(results);
-  files["overview.csv"] = overview(results, false).csv({"Digits: median (lowest) over the points of a source."});
-  files["timing.csv"] = timing_csv(results);
-  files["timing.md"] = timing_page(results);
   return files;
 }
 
