@@ -20,6 +20,7 @@ struct BenchmarkSource {
   std::string worth;        // published, digitised, computed, measured, closed form
   int digits = 10;          // at most, where the print claims more than it is worth; beyond 10 lies round-off
   std::string reason = {};  // why its digits may be off
+  bool again = false;       // the points of the source before, beside another scene: not counted twice
 
   bool independent() const { return worth == "computed" || worth == "closed form"; }  // worth its digits
 };

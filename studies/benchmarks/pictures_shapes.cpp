@@ -55,9 +55,6 @@ std::string bend45_picture(const BenchmarkResult& result) {
   for (const BenchmarkLine& line : result.lines) {
     const std::vector<Point> points = points_of(line, 1, 3);
     panel.curve(points, {colour_of(by_exact), 2, ""});
-    if (points.empty()) continue;
-    panel.name(points.front(), "exact, J = 0.141", colour::black);
-    panel.name(points.back(), "exact, J = 1/6", colour::black);
   }
   for (const BenchmarkRow& row : result.rows) {
     if (row.point.parameter != 600) continue;
@@ -72,6 +69,11 @@ std::string bend45_picture(const BenchmarkResult& result) {
         else panel.failure(p, colour_of(m));
       }
     }
+  }
+  for (const BenchmarkLine& line : result.lines) {
+    if (line.samples.empty()) continue;
+    panel.name(points_of(line, 1, 3).front(), "exact, J = 0.141", colour::black);
+    panel.name(points_of(line, 1, 3).back(), "exact, J = 1/6", colour::black);
   }
   panel.place_names();
   return svg.str();

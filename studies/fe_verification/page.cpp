@@ -73,9 +73,9 @@ std::string page_of(const FeVerification& data, const OwnErrors& own, const std:
   page.set("largest_mm", rounded(quantile(own.errors_mm, 1)));
   page.set("worst", own.worst);
   page.set("kirchhoff_largest", rounded(quantile(own.kirchhoff, 1)));
-  page.set("ratio_least", fixed(quantile(own.estimate_over_error, 0), 0));
-  page.set("ratio_median", fixed(quantile(own.estimate_over_error, 0.5), 0));
-  page.set("ratio_most", fixed(quantile(own.estimate_over_error, 1), 0));
+  page.set("ratio_least", significant(quantile(own.estimate_over_error, 0), 2));
+  page.set("ratio_median", significant(quantile(own.estimate_over_error, 0.5), 2));
+  page.set("ratio_most", significant(quantile(own.estimate_over_error, 1), 2));
   page.check("never_below", quantile(own.estimate_over_error, 0) >= 1);
   page.set("orders", orders_text(data));
   page.check("orders_hold", orders_hold(data));

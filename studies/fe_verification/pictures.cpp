@@ -24,11 +24,11 @@ void draw_curve(Panel& panel, const FeVerification& data, const std::string& rod
   }
   panel.curve(points, {colour, 1.6, style.dash});
   panel.dots(points, colour, 2.5);
-  const auto low = std::find_if(points.begin(), points.end(), [](const Point& p) { return p.y <= fe_floor_over_L; });
-  if (!points.empty()) {
-    panel.name(low == points.end() ? points.back() : *low, names[order - 1] + std::string(full ? ", full" : ""),
-               colour);
-  }
+  // Named at 32 elements, or where the last error clear of round-off is: inside the panel.
+  std::size_t at = 0;
+  while (at + 1 < points.size() && at < 5 && points[at + 1].y > fe_floor_over_L) ++at;
+  if (points.empty()) return;
+  panel.name(points[at], names[order - 1] + std::string(full ? ", full" : ""), colour);
 }
 
 void draw_rod(Svg& svg, const FeVerification& data, const std::string& rod, const std::string& title, double left) {
