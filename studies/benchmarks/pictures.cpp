@@ -71,13 +71,17 @@ Axis difference_axis(const std::string& label, const BenchmarkRows& rows) {
           true};
 }
 
-// Grey up to the difference below which a value rounds to the print, from point to point.
-void draw_band(Svg& svg, const Panel& panel, const Axis& x, const Axis& y, BenchmarkRows rows) {
-  std::sort(rows.begin(), rows.end(),
-            [](const BenchmarkRow* a, const BenchmarkRow* b) { return a->point.parameter < b->point.parameter; });
-  std::vector<Point> edge{panel.at({x.low, y.low}), panel.at({x.low, printed_difference(*rows.front())})};
-  for (const BenchmarkRow* row : rows) edge.push_back(panel.at({row->point.parameter, printed_difference(*row)}));
-  edge.push_back(panel.at({x.high, printed_difference(*rows.back())}));
+// Grey up to the difference below which a value rounds to the print, from place to place; of prints that share a place
+// the finest.
+void draw_band(Svg& svg, const Panel& panel, const Axis& x, const Axis& y, const BenchmarkRows& rows) {
+  std::map<double, double> limits;
+  for (const BenchmarkRow* row : rows) {
+    double& limit = limits.emplace(row->point.parameter, INFINITY).first->second;
+    limit = std::min(limit, printed_difference(*row));
+  }
+  std::vector<Point> edge{panel.at({x.low, y.low}), panel.at({x.low, limits.begin()->second})};
+  for (const auto& [parameter, limit] : limits) edge.push_back(panel.at({parameter, limit}));
+  edge.push_back(panel.at({x.high, limits.rbegin()->second}));
   edge.push_back(panel.at({x.high, y.low}));
   svg.polygon(edge, "#e3e3e3");
 }
