@@ -1,18 +1,10 @@
 // fam-studies benchmarks: reads the scenes of studies/cases/benchmarks and the published numbers of tests/data, solves
-// each point with the methods below, writes points.csv, lines.csv, overview.csv, a picture a benchmark and README.md
-// (benchmark_page.cpp, benchmark_pictures.cpp), timing.csv and timing.md to results/benchmarks. Half a minute.
-#include "studies/scenes/cases.h"
-#include "studies/study.h"
-
+// each point with three methods, writes points.csv, overview.csv, timing.csv, pictures and a page.
 #include "studies/benchmarks/cases.h"
-#include "studies/benchmarks/page.h"
 #include "studies/compare/error_measures.h"
 #include "studies/compare/matching_digits.h"
-#include "studies/methods/exact_method.h"
-#include "studies/methods/fam_method.h"
-#include "studies/methods/fem_method.h"
-#include "studies/report/output_file.h"
 #include "studies/report/provenance.h"
+#include "studies/study.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,21 +16,14 @@ namespace {
 
 using Methods = std::vector<std::unique_ptr<Method>>;
 
-// As benchmark_methods().
+// As benchmark_methods(), each with the shear and stretch that the scene has.
 Methods methods_for(const Benchmark& benchmark) {
-  fem_reference::Options fem;
-  fem.elements = benchmark.elements;
-  fem.estimate_error = false;
-  fam::Options fam;
-  fam.law = fam::Law::fourth_order;
-  fam.model = fam::RodModel::reissner;
-  fam.arcs = benchmark.elements;
-  fam.estimate_error = false;
-  Methods methods;
-  methods.push_back(exact_method({}));
-  methods.push_back(fem_method(fem));
-  methods.push_back(fam_method(fam));
-  return methods;
+  const std::vector<BenchmarkMethod>& methods = benchmark_methods();
+  Methods made;
+  made.push_back(methods[by_exact].row());
+  made.push_back(methods[by_fe].row({.count = benchmark.elements, .estimate_error = false}));
+  made.push_back(methods[by_fam].row({.tolerance = fam_tolerance}));
+  return made;
 }
 
 const BenchmarkFamily& family_of(const Benchmark& benchmark, const std::string& name) {
@@ -108,21 +93,7 @@ BenchmarkRow row_at(const Benchmark& benchmark, const BenchmarkPoint& point, con
   return row;
 }
 
-// `stable` at load factors 1 -+ 10^-k: 1 true, 0 false, -1 not decided.
-BenchmarkLine stability_line(const BenchmarkFamily& family, const Method& exact) {
-  BenchmarkLine line{family.name, {}};
-  for (const double side : {-1.0, 1.0}) {
-    for (int k = 1; k <= family.intervals; ++k) {
-      const double offset = side * std::pow(10, -k);
-      const std::optional<bool> stable = exact.solve(family.scene_at(1 + offset)).stable;
-      line.samples.push_back({offset, stable ? static_cast<double>(*stable) : -1});
-    }
-  }
-  return line;
-}
-
 BenchmarkLine line_of(const BenchmarkFamily& family, const Method& exact) {
-  if (family.critical) return stability_line(family, exact);
   BenchmarkLine line{family.name, {}};
   if (family.shape) {
     const scene::Equilibrium result = exact.solve(family.scene_at(family.first));
@@ -164,29 +135,6 @@ BenchmarkResult run(const Benchmark& benchmark, const StudyOptions& options) {
 
 }  // namespace
 
-scene::Scene scaled(scene::Scene scene, double factor) {
-  for (scene::Load& load : scene.loads) {
-    if (auto* force = std::get_if<scene::Force>(&load)) force->value_N *= factor;
-    if (auto* moment = std::get_if<scene::Moment>(&load)) moment->value_Nmm *= factor;
-    if (auto* distributed = std::get_if<scene::DistributedForce>(&load)) distributed->value_N_per_mm *= factor;
-  }
-  return scene;
-}
-
-scene::Scene benchmark_scene(const StudyOptions& options, const std::string& name) {
-  return read_case(options.cases, "benchmarks/" + name);
-}
-
-BenchmarkPoint benchmark_point(const BenchmarkSource& source, const std::string& family, const std::string& label,
-                               double parameter, const std::vector<Printed>& published, double scale) {
-  return {source.key, family, label, parameter, published, scale == 0 ? norm(published) : scale, source.digits};
-}
-
-const std::vector<std::string>& benchmark_methods() {
-  static const std::vector<std::string> names = {"exact", "FE", "FAM"};
-  return names;
-}
-
 void benchmarks(const StudyOptions& options) {
   std::vector<Benchmark> all = planar_benchmarks(options);
   for (Benchmark& benchmark : spatial_benchmarks(options)) all.push_back(std::move(benchmark));
@@ -196,7 +144,8 @@ void benchmarks(const StudyOptions& options) {
     progress.step(benchmark.key);
     results.push_back(run(benchmark, options));
   }
-  write_results(options.output / "benchmarks", "fam-studies benchmarks", benchmark_files(results));
+  write_results(options.output / "benchmarks", "fam-studies benchmarks",
+                benchmark_files(results, options.pages / "benchmarks/page.md"));
 }
 
 }  // namespace studies

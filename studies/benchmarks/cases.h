@@ -1,13 +1,13 @@
 // The published benchmarks, from the data files and the scene files of the project.
 #pragma once
 
-#include "studies/benchmarks/benchmark.h"
+#include "studies/benchmarks/data.h"
 #include "studies/study.h"
 
 namespace studies {
 
-std::vector<Benchmark> planar_benchmarks(const StudyOptions& options);   // benchmark_cases.cpp
-std::vector<Benchmark> spatial_benchmarks(const StudyOptions& options);  // benchmark_cases_spatial.cpp
+std::vector<Benchmark> planar_benchmarks(const StudyOptions& options);
+std::vector<Benchmark> spatial_benchmarks(const StudyOptions& options);
 
 // Shared by the two.
 scene::Scene scaled(scene::Scene scene, double factor);  // all loads times a factor

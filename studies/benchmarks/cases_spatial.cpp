@@ -54,18 +54,15 @@ void add_bend45_points(Benchmark& b, const StudyOptions& options) {
 }
 
 Benchmark bend45(const StudyOptions& options) {
-  Benchmark b{"bend45",
-              "45° bend, fixed force out of plane",
-              "tip position x, y, z, length units",
-              "bend45_polar",
-              {"polar", 600},
-              50,
-              {{"published_polar", "published tips, against J = 1/6", "published"},
-               {"published_st_venant", "the same tips, against J = 0.141", "published"},
-               {"computed_polar", "J = 1/6, independent", "computed"},
-               {"computed_st_venant", "J = 0.141, independent", "computed"}},
-              {},
-              {}};
+  Benchmark b{
+      "bend45",
+      "45° bend, fixed force out of plane",
+      {"polar", 600},
+      50,
+      {{"published_polar", "published tips, against J = 1/6", "published", 10, "coarse meshes, two torsion constants"},
+       {"published_st_venant", "the same tips, against J = 0.141", "published", 10, "", true},
+       {"computed_polar", "J = 1/6, independent", "computed"},
+       {"computed_st_venant", "J = 0.141, independent", "computed"}}};
   const scene::Scene polar = benchmark_scene(options, "bend45_polar");
   const scene::Scene st_venant = benchmark_scene(options, "bend45_st_venant");
   // Between the two constants at F = 600: the line along which the published tips should lie.
@@ -74,9 +71,9 @@ Benchmark bend45(const StudyOptions& options) {
     std::get<scene::Stiffness>(scene.sections[0].cross_section).torsion_Nmm2 = 5e6 * J;
     return scene;
   };
-  b.families = {{"polar", [=](double F) { return scaled(polar, F / 600); }, tip_xyz},
-                {"st_venant", [=](double F) { return scaled(st_venant, F / 600); }, tip_xyz},
-                {"constant", with_constant, tip_xyz, 0.141, 1 / 6.0, 8}};
+  b.families = {{"polar", "F", [=](double F) { return scaled(polar, F / 600); }, tip_xyz},
+                {"st_venant", "F", [=](double F) { return scaled(st_venant, F / 600); }, tip_xyz},
+                {"constant", "J", with_constant, tip_xyz, 0.141, 1 / 6.0, 8}};
   add_bend45_points(b, options);
   return b;
 }
@@ -84,22 +81,17 @@ Benchmark bend45(const StudyOptions& options) {
 Benchmark helix(const StudyOptions& options) {
   Benchmark b{"helix",
               "Helix of ten turns",
-              "tip displacement u1, u2, u3, length units, L = 10",
-              "helix",
               {"tip", 0.5},
               100,
-              {{"computed", "Taylor series of order 30 (Ibrahimbegović 1997 prints a curve)", "computed"}},
-              {},
-              {}};
+              {{"computed", "Taylor series of order 30 (Ibrahimbegović 1997 prints a curve)", "computed"}}};
   const scene::Scene base = benchmark_scene(options, "helix");
   const auto displacement = [](const scene::Equilibrium& e, const auto&) -> std::vector<double> {
     const Eigen::Vector3d& tip = e.tip().position_B_mm;
     return {tip.x() - 10, tip.y(), tip.z()};
   };
-  b.families = {{"tip", [=](double lambda) { return scaled(base, lambda); }, displacement, 0.004, 0.2, 49}};
+  b.families = {{"tip", "λ", [=](double lambda) { return scaled(base, lambda); }, displacement}};
   for (const DataRow& row : data_rows(options.data / "04_helix_reference_SR.csv")) {
     const double lambda = std::stod(row.at("lambda"));
-    b.dotted.push_back({lambda, std::stod(row.at("u1")), std::stod(row.at("u2")), std::stod(row.at("u3"))});
     if (lambda != 0.05 && lambda != 0.1 && lambda != 0.2 && lambda != 0.5 && lambda != 1) continue;
     b.points.push_back(benchmark_point(b.sources[0], "tip", "λ = " + fixed(lambda, 2), lambda,
                                        {printed(row.at("u1")), printed(row.at("u2")), printed(row.at("u3"))}));
@@ -117,23 +109,19 @@ scene::Scene princeton_scene(scene::Scene scene, double force_N, double beta_deg
 Benchmark princeton(const StudyOptions& options) {
   Benchmark b{"princeton",
               "Princeton beam",
-              "tip in the stiff and in the weak direction, mm",
-              "princeton",
               {"13.345", 45},
               50,
-              {{"ansys_beam", "ANSYS beam elements (Obrezkov 2022)", "published"},
-               {"ansys_solid", "ANSYS solid elements (Obrezkov 2022)", "published"},
-               {"computed", "the same rod, independent", "computed"}},
-              {},
-              {}};
+              {{"ansys_beam", "ANSYS beam elements (Obrezkov 2022)", "published", 10, "another beam program"},
+               {"ansys_solid", "ANSYS solid elements (Obrezkov 2022)", "published", 10, "solid elements"},
+               {"computed", "the same rod, independent", "computed"}}};
   const scene::Scene base = benchmark_scene(options, "princeton");
   const Observe stiff_weak = [](const scene::Equilibrium& e, const auto&) -> std::vector<double> {
     return {e.tip().position_B_mm.y(), e.tip().position_B_mm.z()};
   };
   for (const std::string force_N : {"4.448", "8.896", "13.345"}) {
     const double P = std::stod(force_N);
-    b.families.push_back(
-        {force_N, [=](double beta) { return princeton_scene(base, P, beta); }, stiff_weak, 0, 90, 45, false, false});
+    b.families.push_back({force_N, "angle of the force from the stiff direction, deg",
+                          [=](double beta) { return princeton_scene(base, P, beta); }, stiff_weak});
   }
   const auto in_mm = [](const std::string& metres) { return shifted(printed(metres), 3); };
   for (const DataRow& row : data_rows(options.data / "07_princeton_reference.csv")) {
@@ -165,24 +153,19 @@ scene::Scene pazy_scene(scene::Scene scene, double mass_kg) {  // the tip mass i
 Benchmark pazy(const StudyOptions& options) {
   Benchmark b{"pazy",
               "Pazy wing",
-              "tip deflection beyond its own weight's, % of the semispan",
-              "pazy_skin_1",
               {"1", 3},
               50,
-              {{"measured", "Technion test (Avin et al. 2022)", "measured", 3},
-               {"umnast", "UM/NAST beam", "published"},
-               {"nastran", "Nastran, full model", "published"},
-               {"elastica", "planar elastica of the same table", "computed"}},
-              {},
-              {}};
+              {{"measured", "Technion test (Avin et al. 2022)", "measured", 3, "a real wing"},
+               {"umnast", "UM/NAST beam", "published", 10, "another beam program"},
+               {"nastran", "Nastran, full model", "published", 10, "a full model of the wing"},
+               {"elastica", "planar elastica of the same table", "computed"}}};
   for (const std::string skin : {"0", "1"}) {
     const scene::Scene base = benchmark_scene(options, "pazy_skin_" + skin);
     const double weight_mm = exact_sag_mm(pazy_scene(base, 0));
     const Observe deflection = [=](const scene::Equilibrium& e, const auto&) -> std::vector<double> {
       return {(e.tip().position_B_mm.z() - weight_mm) / 549.843728 * 100};
     };
-    b.families.push_back({skin, [=](double mass) { return pazy_scene(base, mass); }, deflection, 0,
-                          skin == "0" ? 2. : 3., 30, false, false});
+    b.families.push_back({skin, "tip mass, kg", [=](double mass) { return pazy_scene(base, mass); }, deflection});
   }
   const char* columns[] = {"exp_pct", "umnast_beam_pct", "nastran_gfem_pct", "elastica_pct"};
   for (const DataRow& row : data_rows(options.data / "11_pazy_static_bending.csv")) {
@@ -199,13 +182,9 @@ Benchmark pazy(const StudyOptions& options) {
 Benchmark critical(const StudyOptions& options) {
   Benchmark b{"critical",
               "Critical loads",
-              "load over EI/L² (tip), EI/L³ (along the rod) or the same with √(EI GJ)",
-              "critical_euler",
               {"critical_euler", 0.5},
               50,
-              {{"classical", "zeros of Bessel functions, 25 digits", "closed form"}},
-              {},
-              {}};
+              {{"classical", "zeros of Bessel functions, 25 digits", "closed form"}}};
   const std::vector<std::array<std::string, 3>> columns = {
       {"critical_euler", "euler_clamped_free", "Euler column"},
       {"critical_heavy_column", "self_buckling_heavy_column", "heavy column"},
@@ -214,9 +193,8 @@ Benchmark critical(const StudyOptions& options) {
       {"critical_beck", "beck_follower_flutter", "Beck's column (flutter)"}};
   for (const auto& [scene_name, constant, label] : columns) {
     const scene::Scene base = benchmark_scene(options, scene_name);
-    BenchmarkFamily family{scene_name, [=](double factor) { return scaled(base, factor); }, {}};
+    BenchmarkFamily family{scene_name, "load / classical", [=](double factor) { return scaled(base, factor); }, {}};
     family.critical = true;
-    family.intervals = 9;
     b.families.push_back(family);
     for (const DataRow& row : data_rows(options.data / "06_critical_load_constants.csv")) {
       if (row.at("name") != constant) continue;

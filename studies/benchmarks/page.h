@@ -1,28 +1,17 @@
-// Tables, pictures and page of the benchmarks, as pure functions of what was found.
+// What the two halves of the page share.
 #pragma once
 
-#include "studies/benchmarks/benchmark.h"
-
-#include <map>
+#include "studies/benchmarks/data.h"
+#include "studies/report/page.h"
 
 namespace studies {
 
-// File name to content.
-std::map<std::string, std::string> benchmark_files(const std::vector<BenchmarkResult>& results);
+using BenchmarkResults = std::vector<BenchmarkResult>;
 
-// What a method reaches over the points of a source: the median and the lowest number of matching digits.
-struct DigitSummary {
-  int points = 0, solved = 0;
-  int fewest_carried = 0, most_carried = 0;
-  double median = 0, lowest = 0;
-  std::string failure;  // the first status that is not "converged"
-};
-DigitSummary digit_summary(const BenchmarkResult& result, const std::string& source, std::size_t method);
+const BenchmarkResult& result_of(const BenchmarkResults& results, const std::string& key);
+std::string digits_text(double digits);
+std::string digits_of(const BenchmarkRows& rows, std::size_t method);  // "10.0 (6.0)": median and lowest
 
-// One picture a benchmark, file name to SVG (benchmark_pictures.cpp).
-std::map<std::string, std::string> benchmark_pictures(const std::vector<BenchmarkResult>& results);
-
-// A sentence or two of each benchmark for the reader (benchmark_texts.cpp).
-std::string benchmark_text(const std::string& key);
+void set_cases(Page& page, const BenchmarkResults& results);
 
 }  // namespace studies

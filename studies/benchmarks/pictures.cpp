@@ -1,202 +1,199 @@
-#include "studies/benchmarks/marks.h"
-#include "studies/benchmarks/page.h"
+#include "studies/benchmarks/data.h"
+
+#include "studies/report/chart.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace studies {
 namespace {
 
-bool failed_anywhere(const BenchmarkResult& result, std::size_t method) {
-  return std::any_of(result.rows.begin(), result.rows.end(),
-                     [=](const BenchmarkRow& row) { return row.found[method].values.empty(); });
-}
+constexpr double floor_difference = 1e-11;  // smaller ones are drawn here: beyond the ten digits that are compared
+const double radii[] = {5.2, 3.9, 2.5};     // methods that agree lie on each other: the later, the smaller
 
-// The key above the panels: one line for the methods, one for the sources.
-void draw_key(Svg& svg, const BenchmarkResult& result) {
+// The methods' marks and names, in one line.
+void draw_key(Svg& svg, double y) {
   double x = 30;
-  const auto entry = [&](double y, const std::string& text, const std::string& text_colour) {
-    svg.text({x + 12, y + 4}, text, Anchor::start, 12, text_colour);
-    x += 34 + 6.6 * static_cast<double>(text.size());
-  };
-  svg.line({x - 8, 44}, {x + 8, 44}, {colour::black, 1.6, ""});
-  entry(44, "exact", colour::black);
-  square(svg, {x, 44}, method_colours[fe]);
-  entry(44, "FE", method_colours[fe]);
-  triangle(svg, {x, 44}, method_colours[fam]);
-  entry(44, "FAM", method_colours[fam]);
-  if (failed_anywhere(result, fam)) {
-    svg.cross({x, 44}, 4, {method_colours[fam], 1.8, ""});
-    entry(44, "FAM: no value (status in the table)", method_colours[fam]);
-  }
-  x = 30;
-  for (const BenchmarkSource& source : result.benchmark.sources) {
-    svg.circle({x, 64}, 4, source_colour(result, source.key));
-    entry(64, source.title, source_colour(result, source.key));
+  for (std::size_t m = 0; m < benchmark_methods().size(); ++m) {
+    const MethodRow& row = benchmark_methods()[m].row;
+    svg.circle({x, y}, radii[m], row.style.colour);
+    svg.text({x + 10, y + 4}, row.name, Anchor::start, 12, row.style.colour);
+    x += 40 + text_width(row.name, 12);
   }
 }
 
-// One panel of a picture: a component of some families over their parameter.
-struct View {
-  std::vector<std::pair<std::string, std::string>> families;  // with the name of their line
-  std::size_t component;
-  Axis x;
-  std::string y_label;
-};
+// --- Differences over the parameter ---------------------------------------------------------------------------------
 
-bool shown(const View& view, const std::string& family) {
-  return std::any_of(view.families.begin(), view.families.end(), [&](const auto& f) { return f.first == family; });
+bool has_panel(const BenchmarkResult& result, const std::string& source) {
+  std::set<double> parameters;
+  for (const BenchmarkRow* row : rows_of(result, source)) parameters.insert(row->point.parameter);
+  return parameters.size() > 2;
 }
 
-bool in_range(const View& view, const BenchmarkRow& row) {
-  return shown(view, row.point.family) && row.point.parameter >= view.x.low && row.point.parameter <= view.x.high;
+const std::string& parameter_of(const BenchmarkResult& result, const BenchmarkRows& rows) {
+  const std::vector<BenchmarkFamily>& families = result.benchmark.families;
+  return std::find_if(families.begin(), families.end(),
+                      [&](const BenchmarkFamily& f) { return f.name == rows.front()->point.family; })
+      ->parameter;
 }
 
-Axis y_axis(const BenchmarkResult& result, const View& view) {
-  Axis y{view.y_label, 1e300, -1e300, false};
+double shown(double difference) {
+  return std::max(difference, floor_difference);
+}
+
+Axis parameter_axis(const std::string& label, const BenchmarkRows& rows) {
+  double low = INFINITY, high = 0;
+  for (const BenchmarkRow* row : rows) {
+    low = std::min(low, row->point.parameter);
+    high = std::max(high, row->point.parameter);
+  }
+  if (low > 0 && high > 30 * low) return {label, low / 1.3, high * 1.3, true};
+  return {label, low - 0.04 * (high - low), high + 0.04 * (high - low), false};
+}
+
+// Whole decades around all that is drawn.
+Axis difference_axis(const std::string& label, const BenchmarkRows& rows) {
+  double low = INFINITY, high = floor_difference;
   const auto include = [&](double value) {
-    y.low = std::min(y.low, value);
-    y.high = std::max(y.high, value);
+    low = std::min(low, shown(value));
+    high = std::max(high, shown(value));
   };
-  for (const BenchmarkRow& row : result.rows) {
-    if (in_range(view, row)) include(row.point.published[view.component].value);
+  for (const BenchmarkRow* row : rows) {
+    include(printed_difference(*row));
+    for (std::size_t m = 0; m < row->found.size(); ++m) {
+      if (row->found[m].solved()) include(largest_difference(*row, m));
+    }
   }
-  for (const BenchmarkLine& line : result.lines) {
-    if (!shown(view, line.family)) continue;
-    for (const auto& sample : line.samples) include(sample[view.component + 1]);
-  }
-  const double margin = 0.07 * (y.high - y.low);
-  y.low -= margin;
-  y.high += margin;
-  return y;
+  return {label, std::pow(10, std::floor(std::log10(low) - 0.1)), std::pow(10, std::ceil(std::log10(high) + 0.1)),
+          true};
 }
 
-void draw_marks(Svg& svg, Panel& panel, const View& view, const Axis& y, const BenchmarkResult& result) {
-  std::vector<const BenchmarkRow*> rows;
-  for (const BenchmarkRow& row : result.rows) {
-    if (in_range(view, row)) rows.push_back(&row);
+// Grey up to the difference below which a value rounds to the print, from place to place; of prints that share a place
+// the finest.
+void draw_band(Svg& svg, const Panel& panel, const Axis& x, const Axis& y, const BenchmarkRows& rows) {
+  std::map<double, double> limits;
+  for (const BenchmarkRow* row : rows) {
+    double& limit = limits.emplace(row->point.parameter, INFINITY).first->second;
+    limit = std::min(limit, printed_difference(*row));
   }
-  for (const auto& sample : result.benchmark.dotted) {
-    panel.dots({{sample[0], sample[view.component + 1]}}, source_colour(result, result.benchmark.sources[0].key), 2);
-  }
-  double radius = 6;  // sources lie on each other: the later, the smaller
-  for (const BenchmarkSource& source : result.benchmark.sources) {
+  std::vector<Point> edge{panel.at({x.low, y.low}), panel.at({x.low, limits.begin()->second})};
+  for (const auto& [parameter, limit] : limits) edge.push_back(panel.at({parameter, limit}));
+  edge.push_back(panel.at({x.high, limits.rbegin()->second}));
+  edge.push_back(panel.at({x.high, y.low}));
+  svg.polygon(edge, "#e3e3e3");
+}
+
+void draw_source(Svg& svg, const BenchmarkResult& result, const BenchmarkSource& source, Point corner, double width,
+                 double height) {
+  const BenchmarkRows rows = rows_of(result, source.key);
+  const bool over_length = source.worth == "digitised";
+  const Axis x = parameter_axis(parameter_of(result, rows), rows);
+  const Axis y = difference_axis(over_length ? "difference / L" : "difference / |printed|", rows);
+  Panel panel(svg, corner, width, height, x, y);
+  draw_band(svg, panel, x, y, rows);
+  panel.frame(source.title);
+  for (std::size_t m = 0; m < benchmark_methods().size(); ++m) {
+    const std::string& colour = benchmark_methods()[m].row.style.colour;
     for (const BenchmarkRow* row : rows) {
-      if (row->point.source != source.key) continue;
-      const Point p{row->point.parameter, row->point.published[view.component].value};
-      panel.dots({p}, source_colour(result, source.key), radius);
-    }
-    radius -= 1.3;
-  }
-  const std::size_t step = 1 + rows.size() / 24;  // marks of the methods, thinned out
-  for (std::size_t i = 0; i < rows.size(); i += step) {
-    for (const std::size_t method : {fe, fam}) {
-      const BenchmarkFound& found = rows[i]->found[method];
-      const double x = rows[i]->point.parameter;
-      if (found.values.empty()) {
-        panel.failure({x, y.low}, method_colours[method]);
-        continue;
-      }
-      const Point p = panel.at({x, found.values[view.component]});
-      if (method == fe) square(svg, p, method_colours[method]);
-      else triangle(svg, p, method_colours[method]);
-    }
-  }
-}
-
-// Beside the end of a line; above its start where it ends at zero, as all lines of its panel then do.
-Point name_place(const std::vector<Point>& points, const Axis& y) {
-  const double range = y.high - y.low;
-  if (std::abs(points.back().y) > 0.02 * range) return points.back();
-  return {points.front().x + 0.005 * (points.back().x - points.front().x), points.front().y + 0.06 * range};
-}
-
-std::string history_picture(const BenchmarkResult& result, const std::vector<View>& views) {
-  constexpr double width = 400, height = 330, gap = 130, top = 92;
-  const double names = 20 + 8 * static_cast<double>(views[0].families[0].second.size());
-  Svg svg(std::max(700.0, 80 + static_cast<double>(views.size()) * (width + gap) - gap + names + 20), top + height + 50,
-          result.benchmark.title, result.benchmark.title);
-  draw_key(svg, result);
-  for (std::size_t v = 0; v < views.size(); ++v) {
-    const View& view = views[v];
-    const Axis y = y_axis(result, view);
-    Panel panel(svg, {80 + static_cast<double>(v) * (width + gap), top}, width, height, view.x, y);
-    panel.frame();
-    for (const auto& [family, name] : view.families) {
-      for (const BenchmarkLine& line : result.lines) {
-        if (line.family != family) continue;
-        std::vector<Point> points;
-        for (const auto& sample : line.samples) points.push_back({sample[0], sample[view.component + 1]});
-        panel.curve(points, {colour::black, 1.4, ""});
-        if (!name.empty()) panel.name(name_place(points, y), name, colour::black);
+      if (row->found[m].solved()) {
+        panel.dots({{row->point.parameter, shown(largest_difference(*row, m))}}, colour, radii[m]);
+      } else {
+        panel.failure({row->point.parameter, y.high / 1.5}, colour);
       }
     }
-    draw_marks(svg, panel, view, y, result);
-    panel.place_names();
   }
-  return svg.str();
-}
-
-Axis linear(const std::string& label, double low, double high) {
-  return {label, low, high, false};
-}
-
-using Families = std::vector<std::pair<std::string, std::string>>;
-
-// Two components of the same families, side by side.
-std::vector<View> two(const Families& families, const Axis& x, const std::string& first, const std::string& second,
-                      std::size_t second_component = 1) {
-  return {View{families, 0, x, first}, View{families, second_component, x, second}};
-}
-
-std::vector<View> views_of(const std::string& key) {
-  const Families tip = {{"tip", ""}};
-  if (key == "rollup") {
-    return two(tip, linear("M / M_max", 0, 1.02), "tip towards the clamp, length units", "tip across, length units");
-  }
-  if (key == "elastica") {
-    return two(tip, linear("F L²/EI", 0, 10.5), "tip towards the clamp, over L", "tip across, over L");
-  }
-  if (key == "thick") {
-    return two(tip, linear("F / 6.25e7 N", 0, 1.05), "tip towards the clamp, mm", "tip across, mm");
-  }
-  if (key == "heavy") {
-    return two({{"fixed", "fixed"}, {"follower", "follower"}}, linear("q L³/EI", 0, 26), "tip x / L", "tip y / L");
-  }
-  if (key == "helix") {
-    return two(tip, linear("λ", 0, 1.02), "u1 of the tip, length units", "u3 of the tip, length units", 2);
-  }
-  if (key == "princeton") {
-    return two({{"4.448", "4.448 N"}, {"8.896", "8.896 N"}, {"13.345", "13.345 N"}},
-               linear("angle of the force from the stiff direction, deg", 0, 90), "tip in the stiff direction, mm",
-               "tip in the weak direction, mm");
-  }
-  const bool pazy = key == "pazy";
-  const std::string deflection = "tip deflection, % of the semispan";
-  const Axis load = linear("P, kN", 0, 132);
-  View left{{{pazy ? "0" : "axial", ""}}, 0, load, pazy ? deflection : "axial shortening, cm"};
-  View right{{{pazy ? "1" : "transverse", ""}}, 0, load, pazy ? deflection : "transverse deflection, cm"};
-  if (pazy) left.x = linear("tip mass, kg (without skin)", 0, 3.1);
-  if (pazy) right.x = linear("tip mass, kg (with skin)", 0, 3.1);
-  return {left, right};
-}
-
-std::string picture_of(const BenchmarkResult& result) {
-  const std::string& key = result.benchmark.key;
-  if (key == "bend45") return bend45_picture(result);
-  if (key == "critical") return critical_picture(result);
-  return history_picture(result, views_of(key));
 }
 
 }  // namespace
 
-std::map<std::string, std::string> benchmark_pictures(const std::vector<BenchmarkResult>& results) {
-  std::map<std::string, std::string> files;
-  for (const BenchmarkResult& result : results) {
-    files[result.benchmark.key + ".svg"] = picture_of(result);
-    if (result.benchmark.key == "follower") files["follower_shapes.svg"] = shapes_picture(result);
+std::string differences_picture(const BenchmarkResult& result) {
+  std::vector<BenchmarkSource> sources;
+  for (const BenchmarkSource& source : result.benchmark.sources) {
+    if (has_panel(result, source.key)) sources.push_back(source);
   }
-  return files;
+  const std::size_t columns = std::min<std::size_t>(2, sources.size()), lines = (sources.size() + 1) / 2;
+  const double width = columns == 1 ? 560 : 350, height = 190, gap = 90, top = 104, pitch = height + 80;
+  std::string titles;
+  for (const BenchmarkSource& s : sources) titles += (titles.empty() ? "" : "; ") + s.title;
+  const std::string description = fmt::format(
+      "{} panels, one a source ({}). Horizontal: the load or what else was varied. Vertical, logarithmic: difference "
+      "of "
+      "a method's value to the source's, over what the source gives. Dots: black exact, green FE, blue FAM automatic; "
+      "where they lie on each other the methods agree and the difference is to the source. Dots in the grey band at "
+      "the bottom round to what is printed.",
+      sources.size(), titles);
+  Svg svg(80 + static_cast<double>(columns) * (width + gap) - gap + 20, top + static_cast<double>(lines) * pitch - 16,
+          result.benchmark.title + ": method − source", description,
+          "Grey: rounds to the print. Dots on each other: the methods agree. Below 1e-11: drawn there.");
+  draw_key(svg, 62);
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const Point corner{80 + static_cast<double>(i % 2) * (width + gap), top + static_cast<double>(i / 2) * pitch};
+    draw_source(svg, result, sources[i], corner, width, height);
+  }
+  return svg.str();
+}
+
+// --- Matching digits, a line a source -------------------------------------------------------------------------------
+
+namespace {
+
+constexpr double digits_left = 390, digit_width = 46, line_height = 18;
+
+double digits_x(double digits) {
+  return digits_left + digit_width * digits;
+}
+
+void draw_digits(Svg& svg, const BenchmarkSource& source, const BenchmarkRows& rows, double y) {
+  const DigitSummary exact = digit_summary(rows, by_exact);
+  svg.rectangle({digits_left, y - 8}, digit_width * exact.most_carried, 16, "#eeeeee");
+  svg.rectangle({digits_left, y - 8}, digit_width * exact.fewest_carried, 16, "#dddddd");
+  svg.text({digits_left - 10, y + 4}, source.title, Anchor::end, 12);
+  for (std::size_t m = 0; m < benchmark_methods().size(); ++m) {
+    const std::string& colour = benchmark_methods()[m].row.style.colour;
+    const DigitSummary s = digit_summary(rows, m);
+    const double at = y + 5 * (static_cast<double>(m) - 1);
+    if (s.solved > 0) {
+      svg.line({digits_x(s.lowest), at}, {digits_x(s.median), at}, {colour, 1.2, ""});
+      svg.circle({digits_x(s.median), at}, 3, colour);
+    }
+    if (s.solved < s.points) svg.cross({digits_x(10.4) + 12 * static_cast<double>(m), y}, 4, {colour, 1.6, ""});
+  }
+}
+
+}  // namespace
+
+std::string digits_picture(const std::vector<BenchmarkResult>& results) {
+  std::size_t lines = 0;
+  for (const BenchmarkResult& result : results) lines += result.benchmark.sources.size() + 1;
+  const double top = 90, height = line_height * static_cast<double>(lines);
+  Svg svg(
+      900, top + height + 46, "Matching digits, by source",
+      "A line a source, grouped by case. Horizontal: matching digits, 0 to 10. Grey bar: the digits that the source "
+      "carries (lighter: on some of its points). A dot a method at the median over the source's points, a line down "
+      "to the lowest: black exact, green FE, blue FAM automatic. Where the three dots stand one above the other left "
+      "of the bar's end, the source deviates; where black ends the bar and green and blue stay left, it is the "
+      "methods' own error.",
+      "Dot: median over the points; line: down to the lowest; grey: digits that the source carries; ×: points "
+      "without a value");
+  draw_key(svg, 62);
+  for (int digits = 0; digits <= 10; ++digits) {
+    svg.line({digits_x(digits), top - 8}, {digits_x(digits), top + height}, {colour::faint, 1, ""});
+    svg.text({digits_x(digits), top + height + 16}, std::to_string(digits), Anchor::middle, 11);
+  }
+  svg.text({digits_x(5), top + height + 34}, "matching digits", Anchor::middle);
+  double y = top;
+  for (const BenchmarkResult& result : results) {
+    svg.text({26, y + 6}, result.benchmark.title, Anchor::start, 12, "#666");
+    y += line_height;
+    for (const BenchmarkSource& source : result.benchmark.sources) {
+      draw_digits(svg, source, rows_of(result, source.key), y);
+      y += line_height;
+    }
+  }
+  return svg.str();
 }
 
 }  // namespace studies

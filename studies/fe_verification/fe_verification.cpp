@@ -1,11 +1,10 @@
 // fam-studies fe-verification: solves Study I scenes and a thin rod with the finite elements and the exact reference,
-// writes results/fe_verification: convergence.csv, own_error.csv, work.csv, pictures, README.md. Some fifteen seconds.
+// writes convergence.csv, own_error.csv, work.csv, pictures and a page.
 #include "studies/study.h"
 
 #include "exact_reference/solve.h"
 #include "fem_reference/solve.h"
-#include "studies/fe_verification/page.h"
-#include "studies/report/output_file.h"
+#include "studies/fe_verification/data.h"
 #include "studies/report/provenance.h"
 #include "studies/scenes/cases.h"
 
@@ -72,6 +71,7 @@ class FeVerificationStudy {
   void own_error(const std::string& name) {
     progress_.step(name);
     const scene::Scene scene = read_case(options_.cases, "study1/" + name);
+    const double length_mm = scene::length_mm(scene);
     const scene::Equilibrium exact = exact_reference::solve(scene);
     const scene::Equilibrium found = fem_reference::solve(scene);
     exact_reference::Options exact_kirchhoff;
@@ -80,9 +80,9 @@ class FeVerificationStudy {
     kirchhoff.model = fem_reference::RodModel::kirchhoff;
     kirchhoff.estimate_error = false;
     data_.own_errors.push_back(
-        {name, tip_error_over_L(found, exact), found.error_estimate_mm / exact.stations.back().s_mm,
+        {name, tip_error_over_L(found, exact), found.error_estimate_mm / length_mm,
          tip_error_over_L(fem_reference::solve(scene, kirchhoff), exact_reference::solve(scene, exact_kirchhoff)),
-         fact(found, "load_steps"), fact(found, "newton_iterations")});
+         exact.stations.back().s_mm, fact(found, "load_steps"), fact(found, "newton_iterations")});
   }
 
   void work(scene::Scene scene, double load) {
@@ -100,7 +100,8 @@ class FeVerificationStudy {
   }
 
   void write() const {
-    write_results(options_.output / "fe_verification", "fam-studies fe-verification", fe_verification_files(data_));
+    write_results(options_.output / "fe_verification", "fam-studies fe-verification",
+                  fe_verification_files(data_, options_.pages / "fe_verification/page.md"));
   }
 
   StudyOptions options_;

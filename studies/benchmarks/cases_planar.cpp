@@ -1,7 +1,9 @@
 #include "studies/benchmarks/cases.h"
 
 #include "studies/compare/error_measures.h"
+#include "studies/compare/matching_digits.h"
 #include "studies/report/table.h"
+#include "studies/scenes/cases.h"
 
 #include <cmath>
 #include <numbers>
@@ -42,19 +44,15 @@ std::vector<double> nearest_point(const scene::Equilibrium& result, const std::v
 Benchmark rollup(const StudyOptions& options) {
   Benchmark b{"rollup",
               "Roll-up by one and two turns",
-              "tip towards the clamp and across, length units (angle: rad)",
-              "rollup_two_turns",
               {"two_turns", 1},
               50,
               {{"sze", "Sze, Liu & Lo 2004, end moment", "published"},
-               {"closed", "circle of two turns (Simo & Vu-Quoc 1986, ex. 7.1)", "closed form"}},
-              {},
-              {}};
+               {"closed", "circle of two turns (Simo & Vu-Quoc 1986, ex. 7.1)", "closed form"}}};
   const scene::Scene one = benchmark_scene(options, "rollup_one_turn");
   const scene::Scene two = benchmark_scene(options, "rollup_two_turns");
-  b.families = {{"tip", [=](double m) { return scaled(one, m); }, shortening_and_deflection(12), 0.005, 1, 100},
-                {"two_turns", [=](double m) { return scaled(two, m); }, shortening_and_deflection(1)},
-                {"angle", [=](double m) { return scaled(two, m); }, tip_angle}};
+  b.families = {{"tip", "M / M_max", [=](double m) { return scaled(one, m); }, shortening_and_deflection(12)},
+                {"two_turns", "M / 4π", [=](double m) { return scaled(two, m); }, shortening_and_deflection(1)},
+                {"angle", "M / 4π", [=](double m) { return scaled(two, m); }, tip_angle}};
   for (const DataRow& row : data_rows(options.data / "02_sze2004_end_moment_published.csv")) {
     b.points.push_back(benchmark_point(b.sources[0], "tip", "M/M_max = " + row.at("M_over_Mmax"),
                                        std::stod(row.at("M_over_Mmax")),
@@ -68,18 +66,14 @@ Benchmark rollup(const StudyOptions& options) {
 Benchmark elastica(const StudyOptions& options) {
   Benchmark b{"elastica",
               "Transverse elastica, fixed tip force",
-              "tip towards the clamp and across, over L (theta: rad)",
-              "elastica",
               {"tip", 10},
               50,
               {{"mattiasson", "Mattiasson 1981, as quoted", "published"},
-               {"sze", "Sze, Liu & Lo 2004, end shear (shell)", "published"},
-               {"closed", "elliptic integrals, 40-digit arithmetic", "closed form"}},
-              {},
-              {}};
+               {"sze", "Sze, Liu & Lo 2004, end shear", "published", 10, "shell elements"},
+               {"closed", "elliptic integrals, 40-digit arithmetic", "closed form"}}};
   const scene::Scene base = benchmark_scene(options, "elastica");  // alpha = F L^2/EI = 4, L = 10
   const auto at = [=](double alpha) { return scaled(base, alpha / 4); };
-  b.families = {{"tip", at, shortening_and_deflection(10, 10), 0.1, 10.5, 52}, {"angle", at, tip_angle}};
+  b.families = {{"tip", "F L²/EI", at, shortening_and_deflection(10, 10)}, {"angle", "F L²/EI", at, tip_angle}};
   std::map<std::string, std::map<std::string, Printed>> mattiasson;
   for (const DataRow& row : data_rows(options.data / "01_mattiasson_published.csv")) {
     mattiasson[row.at("alpha")][row.at("quantity")] = printed(row.at("published"));
@@ -127,7 +121,7 @@ void add_argyris(Benchmark& b, const StudyOptions& options, const std::function<
     const double load_kN = std::stod(row.at("P_kN"));
     const std::string family = "shape_" + row.at("P_kN");
     if (b.families.back().name != family) {
-      b.families.push_back({family, at, nearest_point, load_kN, load_kN, 1, true, false});
+      b.families.push_back({family, "P, kN", at, nearest_point, load_kN, load_kN, 1, true, false});
       points = 0;
     }
     b.points.push_back(benchmark_point(b.sources[1], family,
@@ -139,15 +133,11 @@ void add_argyris(Benchmark& b, const StudyOptions& options, const std::function<
 Benchmark follower(const StudyOptions& options) {
   Benchmark b{"follower",
               "Cantilever under a follower force",
-              "axial shortening or transverse deflection of the tip, or a point of the shape (x y), L = 100",
-              "follower_cantilever",
               {"tip", 40},
               50,
-              {{"simo", "Simo & Vu-Quoc 1986, ex. 7.2, curves", "digitised", 2},
-               {"argyris", "Argyris & Symeonidis 1981, shapes (EI = 3.5e7)", "digitised", 2},
-               {"computed", "marched from the tip, independent", "computed"}},
-              {},
-              {}};
+              {{"simo", "Simo & Vu-Quoc 1986, ex. 7.2, curves", "digitised", 2, "read off a figure"},
+               {"argyris", "Argyris & Symeonidis 1981, shapes (EI = 3.5e7)", "digitised", 2, "read off a figure"},
+               {"computed", "marched from the tip, independent", "computed"}}};
   const scene::Scene base = benchmark_scene(options, "follower_cantilever");  // 130 kN
   const auto at = [=](double load_kN) { return scaled(base, load_kN / 130); };
   const auto axial = [](const scene::Equilibrium& e, const auto&) -> std::vector<double> {
@@ -161,7 +151,7 @@ Benchmark follower(const StudyOptions& options) {
     return {e.tip().position_B_mm.x() / 100, e.tip().position_B_mm.y() / 100};
   };
   b.families = {
-      {"axial", at, axial, 0, 130, 65}, {"transverse", at, transverse, 0, 130, 65}, {"tip", at_beta, unit_tip}};
+      {"axial", "P, kN", at, axial}, {"transverse", "P, kN", at, transverse}, {"tip", "P L²/EI", at_beta, unit_tip}};
   add_simo(b, options);
   add_argyris(b, options, at);
   for (const DataRow& row : data_rows(options.data / "05_follower_tip_force_reference.csv")) {
@@ -176,17 +166,13 @@ Benchmark follower(const StudyOptions& options) {
 Benchmark thick(const StudyOptions& options) {
   Benchmark b{"thick",
               "Thick cantilever",
-              "tip towards the clamp and across, mm",
-              "thick_cantilever",
               {"tip", 1},
               50,
-              {{"exudyn", "Nachbagauer 2011, as in EXUDYN: 1024 and 256 elements", "published"},
-               {"computed", "the same rod, independent", "computed"}},
-              {},
-              {}};
+              {{"exudyn", "Nachbagauer 2011, as in EXUDYN", "published", 10, "1024 and 256 elements"},
+               {"computed", "the same rod, independent", "computed"}}};
   const scene::Scene base = benchmark_scene(options, "thick_cantilever");
   const auto at = [=](double factor) { return scaled(base, factor); };
-  b.families = {{"tip", at, shortening_and_deflection(2000), 0.01, 1, 30}};
+  b.families = {{"tip", "F / 6.25e7 N", at, shortening_and_deflection(2000)}};
   for (const DataRow& row : data_rows(options.data / "12_misc_planar_published.csv")) {
     const bool large = row.at("case").starts_with("Nachbagauer");
     if (!large && !row.at("case").starts_with("same")) continue;
@@ -203,19 +189,15 @@ Benchmark thick(const StudyOptions& options) {
 Benchmark heavy(const StudyOptions& options) {
   Benchmark b{"heavy",
               "Heavy elastica and distributed follower force",
-              "tip x, y, over L",
-              "distributed_follower",
               {"fixed", 25},
               50,
               {{"computed", "heavy elastica, independent", "computed"},
-               {"conservative", "PyElastica's table, fixed load", "published"},
-               {"follower", "PyElastica's table, follower load", "published"}},
-              {},
-              {}};
+               {"conservative", "PyElastica's table, fixed load", "published", 10, "no paper named"},
+               {"follower", "PyElastica's table, follower load", "published", 10, "no paper named"}}};
   const scene::Scene weight = benchmark_scene(options, "heavy_elastica");
   const scene::Scene turning = benchmark_scene(options, "distributed_follower");
-  b.families = {{"fixed", [=](double g) { return scaled(weight, g / 25); }, tip_xy, 0.1, 26, 52},
-                {"follower", [=](double g) { return scaled(turning, g / 25); }, tip_xy, 0.1, 26, 52}};
+  b.families = {{"fixed", "q L³/EI", [=](double g) { return scaled(weight, g / 25); }, tip_xy},
+                {"follower", "q L³/EI", [=](double g) { return scaled(turning, g / 25); }, tip_xy}};
   for (const DataRow& row : data_rows(options.data / "08_heavy_elastica_reference.csv")) {
     const double g = std::stod(row.at("g"));
     if (g != 1 && g != 5 && g != 10 && g != 25 && g != 100 && g != 1000) continue;
@@ -232,6 +214,24 @@ Benchmark heavy(const StudyOptions& options) {
 }
 
 }  // namespace
+
+scene::Scene scaled(scene::Scene scene, double factor) {
+  for (scene::Load& load : scene.loads) {
+    if (auto* force = std::get_if<scene::Force>(&load)) force->value_N *= factor;
+    if (auto* moment = std::get_if<scene::Moment>(&load)) moment->value_Nmm *= factor;
+    if (auto* distributed = std::get_if<scene::DistributedForce>(&load)) distributed->value_N_per_mm *= factor;
+  }
+  return scene;
+}
+
+scene::Scene benchmark_scene(const StudyOptions& options, const std::string& name) {
+  return read_case(options.cases, "benchmarks/" + name);
+}
+
+BenchmarkPoint benchmark_point(const BenchmarkSource& source, const std::string& family, const std::string& label,
+                               double parameter, const std::vector<Printed>& published, double scale) {
+  return {source.key, family, label, parameter, published, scale == 0 ? norm(published) : scale, source.digits};
+}
 
 std::vector<Benchmark> planar_benchmarks(const StudyOptions& options) {
   return {rollup(options), elastica(options), follower(options), thick(options), heavy(options)};
