@@ -77,8 +77,8 @@ TEST(Answers, RoundTrip) {
 }
 
 TEST(Numbers, ForReaders) {
-  EXPECT_EQ(for_reader("| -0.27 | 1.2e-07 | a-b | (-3) | 2e+04 | -1.5e-3 |"),
-            "| −0.27 | 1.2e-7 | a-b | (−3) | 2e+4 | −1.5e-3 |");
+  EXPECT_EQ(for_reader("| -0.27 | 1.2e-07 | a-b | (-3) | 2e+04 | -1.5e-3 | 2.7e+00 |"),
+            "| −0.27 | 1.2e-7 | a-b | (−3) | 2e4 | −1.5e-3 | 2.7 |");
   EXPECT_EQ(significant(0.21449, 3), "0.214");
   EXPECT_EQ(significant(12.345, 3), "12.3");
   EXPECT_EQ(significant(1244.4, 3), "1240");

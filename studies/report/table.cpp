@@ -26,8 +26,10 @@ std::string csv_line(const std::vector<std::string>& cells) {
 }  // namespace
 
 std::string for_reader(const std::string& text) {
-  static const std::regex exponent("([0-9])e\\+?(-?)0*([0-9]+)"), minus("(^|[\\s(|>±])-([0-9.])");
-  return std::regex_replace(std::regex_replace(text, exponent, "$1e$2$3"), minus, "$1−$2");
+  static const std::regex none("([0-9])e[-+]?0+(?![0-9])"), exponent("([0-9])e\\+?(-?)0*([0-9]+)"),
+      minus("(^|[\\s(|>±])-([0-9.])");
+  const std::string plain = std::regex_replace(std::regex_replace(text, none, "$1"), exponent, "$1e$2$3");
+  return std::regex_replace(plain, minus, "$1−$2");
 }
 
 void Table::add(std::vector<std::string> cells) {
