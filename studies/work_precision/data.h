@@ -81,12 +81,8 @@ Spread times_to_us(const WorkData& data, bool follower, const Contestant& contes
 // Time over that of FAM's automatic choice, on the scenes where that reaches the target.
 Spread ratios_to_automatic(const WorkData& data, bool follower, const Contestant& contestant, double target);
 
-// On how many scenes each of the contestants is the fastest within the target, and how many there are.
-struct Wins {
-  std::vector<int> of_each;
-  int scenes = 0;
-};
-Wins wins_of(const WorkData& data, bool follower, const std::vector<Contestant>& among, double target);
+// On how many scenes each of these is the fastest within the target.
+std::vector<int> wins_of(const WorkData& data, bool follower, const std::vector<Contestant>& among, double target);
 
 // File name to content; the tables of the page are Markdown.
 std::map<std::string, std::string> work_precision_tables(const WorkData& data);

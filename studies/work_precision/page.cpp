@@ -18,7 +18,7 @@ constexpr double printed_fam_ms = 3, printed_fe_ms = 1244;  // the paper's abstr
 
 // What a user calls, and what a program that knows its resolution beforehand can call.
 const std::vector<std::string> called = {"fam", "rk4", "exact", "fe"},
-                               kernels = {"fam_sixth_order", "fam_fourth_order", "fam_midpoint", "rk4", "fe"};
+                               kernels = {"fam_sixth_order", "fam_fourth_order", "rk4", "fe"};
 
 std::vector<Contestant> among(const std::vector<std::string>& methods) {
   std::vector<Contestant> list;
@@ -29,28 +29,34 @@ std::vector<Contestant> among(const std::vector<std::string>& methods) {
 // "15.6 µs (11.0 … 21.2; 15 of 17)": median, quartiles, scenes that reach the target where these are not all.
 std::string time_phrase(const WorkData& data, bool follower, const std::string& method, double target) {
   const Spread time = times_to_us(data, follower, contestant(method), target);
-  if (time.reached == 0) return "–";
+  if (!std::isfinite(time.median)) return fmt::format("– ({} of {})", time.reached, time.scenes);
   const std::string share = time.reached == time.scenes ? "" : fmt::format("; {} of {}", time.reached, time.scenes);
   return fmt::format("{} ({} … {}{})", time_text(time.median), time_text(time.lower), time_text(time.upper), share);
 }
 
-// "at 1e-02 L RK4 shooting (13 of 21), at 1e-08 L FAM automatic (20 of 21)": who wins on most scenes.
+// "RK4 shooting at 1e-2 L (on 13 of 21), FAM automatic at 1e-5, 1e-8 L (on 14, 20 of 21)": who wins on most scenes.
 std::string winners(const WorkData& data, bool follower, const std::vector<std::string>& methods) {
   std::vector<std::string> parts;
-  for (const double target : work_targets) {
-    const Wins wins = wins_of(data, follower, among(methods), target);
-    const auto most = std::max_element(wins.of_each.begin(), wins.of_each.end());
-    if (*most == 0) continue;
-    const std::string& name = method_row(methods[static_cast<std::size_t>(most - wins.of_each.begin())]).name;
-    parts.push_back(fmt::format("at {} {} (on {} of {})", target_text(target), name, *most, wins.scenes));
+  for (const std::string& method : methods) {
+    std::vector<std::string> targets, counts;
+    for (const double target : work_targets) {
+      const std::vector<int> wins = wins_of(data, follower, among(methods), target);
+      const auto most = std::max_element(wins.begin(), wins.end());
+      if (*most == 0 || methods[static_cast<std::size_t>(most - wins.begin())] != method) continue;
+      targets.push_back(for_reader(scientific(target, 0)));
+      counts.push_back(std::to_string(*most));
+    }
+    if (!targets.empty())
+      parts.push_back(fmt::format("{} at {} L (on {} of {})", method_row(method).name, fmt::join(targets, ", "),
+                                  fmt::join(counts, ", "), data.names(follower).size()));
   }
-  return parts.empty() ? "not timed" : for_reader(fmt::format("{}", fmt::join(parts, ", ")));
+  return parts.empty() ? "not timed" : fmt::format("{}", fmt::join(parts, "; "));
 }
 
 // One of the two frames in a sentence or two.
 std::string frame_answer(const WorkData& data, bool follower) {
   return for_reader(
-      fmt::format("{} loads ({} scenes), the fastest as they are called: {}. For a tip within 1e-3 L `fam solve` takes "
+      fmt::format("{} loads ({} scenes), fastest as called: {}. For a tip within 1e-3 L `fam solve` takes "
                   "{}, its bare "
                   "kernel (sixth order, fewest arcs) {}, RK4 shooting with the fewest steps {}, FE {}.",
                   follower ? "Follower" : "Fixed", data.names(follower).size(), winners(data, follower, called),

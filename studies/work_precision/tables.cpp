@@ -98,10 +98,11 @@ std::string share_text(int holds, std::size_t all) {
 
 // "14.1 (10.2 … 17.9) [15/17]": median, quartiles, scenes that reach the target.
 std::string spread_cell(const Spread& spread, int digits) {
+  const std::string share = share_text(spread.reached, static_cast<std::size_t>(spread.scenes));
   if (spread.reached == 0) return "–";
+  if (!std::isfinite(spread.median)) return "–" + share;
   return fmt::format("{} ({} … {}){}", significant(spread.median, digits), significant(spread.lower, digits),
-                     significant(spread.upper, digits),
-                     share_text(spread.reached, static_cast<std::size_t>(spread.scenes)));
+                     significant(spread.upper, digits), share);
 }
 
 std::vector<std::string> head_of_targets(const std::string& first) {
@@ -126,6 +127,11 @@ std::string coarsest(const WorkData& data, bool follower, const std::string& ser
     if (count > best) best = count, best_label = label;
   }
   return best == 0 ? "–" : best_label + share_text(best, scenes.size());
+}
+
+bool solves_any(const WorkData& data, bool follower, const Contestant& contestant) {
+  const std::string& series = contestant.series.back();
+  return coarsest(data, follower, series, contestant.model, work_targets.front()) != "–";
 }
 
 // A finer resolution at least twice as far away as a coarser one, above round-off.
@@ -170,7 +176,7 @@ std::string times_table(const WorkData& data, bool follower) {
   for (const Contestant& c : contestants()) {
     std::vector<std::string> cells{c.name()};
     for (const double target : work_targets) cells.push_back(spread_cell(times_to_us(data, follower, c, target), 3));
-    table.add(std::move(cells));
+    if (solves_any(data, follower, c)) table.add(std::move(cells));
   }
   return table.markdown();
 }
@@ -194,7 +200,7 @@ std::string resolutions_table(const WorkData& data, bool follower) {
     std::vector<std::string> cells{c.name()};
     for (const double target : work_targets)
       cells.push_back(coarsest(data, follower, c.series.back(), c.model, target));
-    table.add(std::move(cells));
+    if (solves_any(data, follower, c)) table.add(std::move(cells));
   }
   return table.markdown();
 }
