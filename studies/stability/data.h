@@ -49,6 +49,7 @@ struct StabilityData {
 
   // Null where the method was not asked.
   const StabilityCell* find(const std::string& map, const std::string& method, double x, double y) const;
+  std::vector<const StabilityCell*> find_all(const std::string& map, const std::string& method) const;
   const StabilityMap& map_named(const std::string& name) const;
   int count(const std::string& method, const std::function<bool(Verdict)>& is) const;
 };

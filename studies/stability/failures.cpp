@@ -32,12 +32,10 @@ const std::vector<LoadNumber>& load_numbers() {
   return numbers;
 }
 
+// Of the directions the table tells of those that push.
 Cells cells_of(const StabilityData& data, const std::string& map, const std::string& method) {
-  Cells cells;
-  for (const StabilityCell& c : data.cells) {
-    // Of the directions the row tells of those that push.
-    if (c.map == map && c.method == method && (map != "direction" || c.x > 90)) cells.push_back(&c);
-  }
+  Cells cells = data.find_all(map, method);
+  if (map == "direction") std::erase_if(cells, [](const StabilityCell* c) { return c->x <= 90; });
   return cells;
 }
 
@@ -76,12 +74,7 @@ std::string where_wrong(const StabilityMap& map, const Cells& cells) {
   }
   if (std::isinf(least_x)) return "";
   if (map.name == "direction") return "from " + number(least_y) + " on";
-  return fmt::format("at {} from {} {} on", range(least_y, most_y), map.x.label, number(least_x));
-}
-
-std::string with_count(const Contender& method, int cells) {
-  const MethodRow& row = method_row(method.method);
-  return cells == 0 ? method.name() : method.name() + ", " + counted(cells, row.counts);
+  return fmt::format("at {} where {} ≥ {}", range(least_y, most_y), map.x.label, number(least_x));
 }
 
 // Where each method fails, those that fail alike together.
@@ -106,12 +99,18 @@ std::string failures_in(const StabilityData& data, const StabilityMap& map) {
         map.y_is_cells ? where_no_resolution_helps(data, map, method.key) : where_wrong(map, cells);
     const auto lies = std::count_if(cells.begin(), cells.end(), silent);
     if (where.empty() && lies == 0) continue;
-    add(where + (lies > 0 ? fmt::format(", **silent on {} of {}**", lies, cells.size()) : ""),
-        with_count(method, map.y_is_cells ? method.most_cells : method.fixed_cells));
+    add(where + (lies > 0 ? fmt::format(", **silent on {} of {}**", lies, cells.size()) : ""), method.name());
   }
   std::vector<std::string> parts;
-  for (const auto& [where, names] : alike) parts.push_back(fmt::format("{}: {}", where, fmt::join(names, "; ")));
-  return parts.empty() ? "nothing" : fmt::format("{}", fmt::join(parts, ". "));
+  for (const auto& [where, names] : alike) parts.push_back(fmt::format("{} {}", fmt::join(names, ", "), where));
+  return parts.empty() ? "nothing" : fmt::format("{}", fmt::join(parts, "; "));
+}
+
+// "≤ 256 arcs, 16 elements": what the methods that do not choose were given.
+std::string given(const StabilityMap& map) {
+  const Contender &arcs = contender("sixth_order"), &elements = contender("fem quadratic");
+  return map.y_is_cells ? fmt::format("≤ {} arcs, {} elements", arcs.most_cells, elements.most_cells)
+                        : fmt::format("{} arcs, {} elements", arcs.fixed_cells, elements.fixed_cells);
 }
 
 // Fewest sixth-order arcs that are right over a whole map, with all finer; 0: none.
@@ -135,12 +134,14 @@ std::string instead(const StabilityData& data, const std::vector<std::pair<std::
     });
     if (!all) continue;
     const bool counts = !data.map_named(maps.front().second).y_is_cells;
-    if (method.automatic() || counts) names.push_back(with_count(method, method.fixed_cells));
+    if (method.automatic() || counts) names.push_back(method.name());
   }
   const StabilityMap& first = data.map_named(maps.front().second);
   const int arcs = first.y_is_cells ? arcs_for_all(data, first) : 0;
-  if (arcs > 0) names.push_back(with_count(contender("sixth_order"), arcs) + (arcs == 1 ? "" : " or more"));
-  std::stable_partition(names.begin(), names.end(), [](const std::string& name) { return name == "FAM automatic"; });
+  if (arcs > 0)
+    names.push_back(contender("sixth_order").name() + ", " + counted(arcs, "arc") + (arcs == 1 ? "" : " or more"));
+  std::stable_partition(names.begin(), names.end(),
+                        [](const std::string& name) { return name == contender("fam automatic").name(); });
   return names.empty() ? "–" : fmt::format("{}", fmt::join(names, "; "));
 }
 
@@ -151,11 +152,12 @@ std::string failures_table(const StabilityData& data) {
   for (const LoadNumber& line : load_numbers()) {
     std::string fails;
     for (const auto& [word, map] : line.maps) {
-      fails += (fails.empty() ? "" : ". ") + (word.empty() ? "" : "*" + word + "* ") +
+      fails += (fails.empty() ? "" : "; ") + (word.empty() ? "" : "*" + word + "* ") +
                failures_in(data, data.map_named(map));
     }
     std::erase(fails, '|');  // it would end the cell
-    table.add({line.name, fails, instead(data, line.maps)});
+    table.add({fmt::format("{} ({})", line.name, given(data.map_named(line.maps.front().second))), fails,
+               instead(data, line.maps)});
   }
   return table.markdown();
 }

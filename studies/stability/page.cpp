@@ -12,7 +12,7 @@
 namespace studies {
 namespace {
 
-// "-": nothing beyond which plain shooting fails whatever its steps.
+// The load from which on plain shooting fails whatever its steps; empty: there is none.
 std::string load_lost_to_shooting(const StabilityData& data, const std::string& map_name) {
   const StabilityMap& map = data.map_named(map_name);
   for (const double load : map.x.values) {

@@ -29,10 +29,7 @@ std::string fill_of(Verdict verdict) {
 
 void draw_cell(Svg& svg, Point corner, double cell_width, Verdict verdict) {
   const Point centre{corner.x + cell_width / 2, corner.y + cell_height / 2};
-  if (verdict == Verdict::unsupported) {
-    svg.text({centre.x, centre.y + 4}, "–", Anchor::middle, 12, colour::grey);
-    return;
-  }
+  if (verdict == Verdict::unsupported) return svg.text({centre.x, centre.y + 4}, "–", Anchor::middle);
   svg.rectangle({corner.x + 0.5, corner.y + 0.5}, cell_width - 1, cell_height - 1, fill_of(verdict));
   if (is_silent(verdict)) svg.cross(centre, 5, {"#ffffff", 2.4, ""});
   if (verdict == Verdict::flagged) svg.text({centre.x, centre.y + 4}, "!", Anchor::middle, 12, colour::black);
@@ -45,14 +42,19 @@ const std::vector<std::pair<Verdict, std::string>>& legend() {
       {Verdict::right_to_1e6, "right to 1e-6 L"}, {Verdict::right_to_1e4, "to 1e-4 L"},
       {Verdict::right_to_1e2, "to 1e-2 L"},       {Verdict::flagged, "wrong, says so"},
       {Verdict::wrong, "wrong and silent"},       {Verdict::wrong_branch, "silent, wrong branch"},
-      {Verdict::not_converged, "no answer"},      {Verdict::work_limit, "work limit"},
-      {Verdict::unsupported, "refused"}};
+      {Verdict::not_converged, "no answer"},      {Verdict::work_limit, "work limit"}};
   return entries;
 }
 
-void draw_legend(Svg& svg) {
+bool shows(const StabilityData& data, const StabilityMap& map, Verdict verdict) {
+  return std::any_of(data.cells.begin(), data.cells.end(),
+                     [&](const StabilityCell& c) { return c.map == map.name && c.judgement.verdict == verdict; });
+}
+
+void draw_legend(Svg& svg, const StabilityData& data, const StabilityMap& map) {
   Point at{26, 40};
   for (const auto& [verdict, text] : legend()) {
+    if (!shows(data, map, verdict)) continue;
     draw_cell(svg, at, 22, verdict);
     svg.text({at.x + 27, at.y + 13}, text);
     at.x += 42 + text_width(text, 12);
@@ -82,11 +84,12 @@ void draw_axes(Svg& svg, const StabilityMap& map, const std::vector<double>& row
     svg.text({corner.x - 5, y - 5}, one_row ? "chosen" : for_reader(axis_text(rows[i])), Anchor::end);
   }
   for (std::size_t i = 0; i < map.x.values.size(); ++i) {
-    svg.text({corner.x + (static_cast<double>(i) + 0.5) * cell_width, bottom + 14},
-             for_reader(axis_text(map.x.values[i])), Anchor::middle);
+    const std::string value = for_reader(axis_text(map.x.values[i]));
+    svg.text({corner.x + (static_cast<double>(i) + 0.5) * cell_width, bottom + 14}, value, Anchor::middle,
+             text_width(value, 12) < cell_width ? 12 : 10);
   }
   svg.text({corner.x + cell_width * count / 2, bottom + 30}, map.x.label, Anchor::middle);
-  if (!one_row) svg.text({corner.x - 54, (corner.y + bottom) / 2}, map.y.label, Anchor::middle, 12, colour::black, -90);
+  if (!one_row) svg.text({corner.x - 62, (corner.y + bottom) / 2}, map.y.label, Anchor::middle, 12, colour::black, -90);
 }
 
 void draw_method(Svg& svg, const StabilityData& data, const StabilityMap& map, const std::string& method,
@@ -104,14 +107,27 @@ void draw_method(Svg& svg, const StabilityData& data, const StabilityMap& map, c
   draw_axes(svg, map, rows, corner, map.y_is_cells && contender(method).automatic());
 }
 
+bool refuses(const StabilityData& data, const StabilityMap& map, const std::string& method) {
+  const auto cells = data.find_all(map.name, method);
+  return std::all_of(cells.begin(), cells.end(),
+                     [](const StabilityCell* c) { return c->judgement.verdict == Verdict::unsupported; });
+}
+
+// "FAM published": those without a panel.
+std::string refusing(const StabilityData& data, const StabilityMap& map) {
+  std::string names;
+  for (const std::string& method : data.methods) {
+    if (data.find_all(map.name, method).empty() || !refuses(data, map, method)) continue;
+    names += (names.empty() ? "" : ", ") + contender(method).name();
+  }
+  return names;
+}
+
 // Those that choose their own resolution first; a method that refuses all of the map has no panel.
 std::vector<std::string> panels_of(const StabilityData& data, const StabilityMap& map) {
   std::vector<std::string> methods;
   for (const std::string& method : data.methods) {
-    const bool shown = std::any_of(data.cells.begin(), data.cells.end(), [&](const StabilityCell& c) {
-      return c.map == map.name && c.method == method && c.judgement.verdict != Verdict::unsupported;
-    });
-    if (shown) methods.push_back(method);
+    if (!data.find_all(map.name, method).empty() && !refuses(data, map, method)) methods.push_back(method);
   }
   std::stable_partition(methods.begin(), methods.end(),
                         [](const std::string& method) { return contender(method).automatic(); });
@@ -125,14 +141,12 @@ std::string told(const StabilityData& data, const StabilityMap& map) {
       "ones say that they are not, orange and purple ones with a white cross are silent.",
       map.x.label, map.y.label);
   for (const std::string& method : panels_of(data, map)) {
-    int good = 0, silent = 0, all = 0;
-    for (const StabilityCell& c : data.cells) {
-      if (c.map != map.name || c.method != method) continue;
-      ++all;
-      good += is_right(c.judgement.verdict) ? 1 : 0;
-      silent += is_silent(c.judgement.verdict) ? 1 : 0;
-    }
-    text += fmt::format(" {}: {} of {} right", contender(method).name(), good, all);
+    const auto cells = data.find_all(map.name, method);
+    const auto count = [&](bool (*is)(Verdict)) {
+      return std::count_if(cells.begin(), cells.end(), [&](const auto* c) { return is(c->judgement.verdict); });
+    };
+    const auto silent = count(is_silent);
+    text += fmt::format(" {}: {} of {} right", contender(method).name(), count(is_right), cells.size());
     text += silent > 0 ? fmt::format(", {} silent.", silent) : ".";
   }
   return text;
@@ -149,7 +163,9 @@ std::string picture(const StabilityData& data, const StabilityMap& map) {
   double height = head;
   for (const double row : row_heights) height += row;
   Svg svg(width, height, map.title, told(data, map));
-  draw_legend(svg);
+  draw_legend(svg, data, map);
+  if (const std::string names = refusing(data, map); !names.empty())
+    svg.text({width - 20, 24}, "refused by " + names, Anchor::end, 12, colour::grey);
   double top = head;
   for (std::size_t i = 0; i < methods.size(); ++i) {
     const double x = 8 + left + panel_width * static_cast<double>(i % columns);

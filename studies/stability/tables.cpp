@@ -82,6 +82,14 @@ const StabilityCell* StabilityData::find(const std::string& map, const std::stri
   return found == cells.end() ? nullptr : &*found;
 }
 
+std::vector<const StabilityCell*> StabilityData::find_all(const std::string& map, const std::string& method) const {
+  std::vector<const StabilityCell*> found;
+  for (const StabilityCell& c : cells) {
+    if (c.map == map && c.method == method) found.push_back(&c);
+  }
+  return found;
+}
+
 const StabilityMap& StabilityData::map_named(const std::string& name) const {
   return *std::find_if(maps.begin(), maps.end(), [&](const StabilityMap& map) { return map.name == name; });
 }
@@ -113,7 +121,7 @@ std::string growth_table(const StabilityData& data) {
   Table table({"F L²/EI", "w", "measured growth", "cosh w"});
   for (const Sensitivity& s : data.sensitivities) {
     const double w = std::sqrt(s.load);
-    table.add({axis_text(s.load), fixed(w, 1), scientific(s.growth, 1), scientific(std::cosh(w), 1)});
+    table.add({axis_text(s.load), fixed(w, 1), significant(s.growth, 2), significant(std::cosh(w), 2)});
   }
   return table.markdown();
 }
