@@ -92,7 +92,7 @@ std::string failures_in(const StabilityData& data, const StabilityMap& map) {
     const auto refused = [](const StabilityCell* c) { return c->judgement.verdict == Verdict::unsupported; };
     const auto silent = [](const StabilityCell* c) { return is_silent(c->judgement.verdict); };
     if (std::all_of(cells.begin(), cells.end(), refused)) {
-      add("refused", method.name());
+      add("refuses", method.name());
       continue;
     }
     const std::string where =

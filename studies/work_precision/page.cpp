@@ -75,7 +75,7 @@ Spread cost_of_stepping(const WorkData& data) {
   return spread_of(ratios);
 }
 
-// Scenes where plain shooting ends elsewhere or nowhere at every number of steps, and how.
+// Scenes where plain shooting with the most steps ends elsewhere or nowhere, and how.
 std::string without_shooting(const WorkData& data) {
   std::vector<std::string> list;
   for (const WorkScene& scene : data.scenes) {
@@ -104,7 +104,7 @@ void set_times(Page& page, const WorkData& data) {
   page.set_time("machine", machine_line());
   const Spread stepping = cost_of_stepping(data);
   page.set_time("stepping",
-                fmt::format("{} ({} … {}; {} scenes)", significant(stepping.median, 2), significant(stepping.lower, 2),
+                fmt::format("{} ({} … {}; {})", significant(stepping.median, 2), significant(stepping.lower, 2),
                             significant(stepping.upper, 2), stepping.scenes));
 }
 

@@ -85,9 +85,11 @@ std::string timing_aims_csv(const WorkData& data) {
                "upper_quartile_us", "repeats"});
   for (const AimRow& row : data.aims) {
     if (row.resolution == 0) continue;
+    const bool spread = row.time.has_spread();
     table.add({row.scene, scientific(row.target_mm, 0), row.method, std::to_string(row.resolution),
-               fmt::format("{}", row.aim_us), fixed(row.time.median_us, 3), fixed(row.time.lower_quartile_us, 3),
-               fixed(row.time.upper_quartile_us, 3), std::to_string(row.time.repeats)});
+               fmt::format("{}", row.aim_us), fixed(row.time.median_us, 3),
+               spread ? fixed(row.time.lower_quartile_us, 3) : "", spread ? fixed(row.time.upper_quartile_us, 3) : "",
+               std::to_string(row.time.repeats)});
   }
   return table.csv({machine_line()});
 }
