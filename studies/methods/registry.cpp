@@ -41,6 +41,7 @@ Made finite_elements(const MethodRow&, const Request& request) {
   options.order = order;
   options.model = request.model;
   options.estimate_error = request.estimate_error;
+  if (request.most_load_steps > 0) options.max_load_steps = request.most_load_steps;
   if (request.whole_load) {
     options.initial_load_step = 1;
     options.largest_rotation_rad = 3;

@@ -18,6 +18,7 @@ struct Request {
   bool estimate_error = true;
   bool twist_first = false;  // FAM published: the other rotation order
   bool whole_load = false;   // finite elements: try the whole load in one step
+  int most_load_steps = 0;   // finite elements: accepted and rejected; 0: their default
 };
 
 struct MethodRow {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "studies/compare/verdict.h"
+#include "studies/report/answers.h"
 #include "studies/stability/maps.h"
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,7 +13,7 @@
 namespace studies {
 
 struct StabilityCell {
-  std::string map, method;
+  std::string map, method;  // method: the contender's key
   double x, y;
   int cells;  // arcs or elements; 0: automatic
   Judgement judgement;
@@ -47,6 +49,9 @@ struct StabilityData {
 
   // Null where the method was not asked.
   const StabilityCell* find(const std::string& map, const std::string& method, double x, double y) const;
+  std::vector<const StabilityCell*> find_all(const std::string& map, const std::string& method) const;
+  const StabilityMap& map_named(const std::string& name) const;
+  int count(const std::string& method, const std::function<bool(Verdict)>& is) const;
 };
 
 std::string axis_text(double value);  // "0.01", "1e-08"
@@ -55,12 +60,27 @@ std::string axis_text(double value);  // "0.01", "1e-08"
 const StabilityCell* coarsest_right(const StabilityData& data, const StabilityMap& map, const std::string& method,
                                     double x);
 
-std::string mechanism(const std::string& map);            // one sentence
-std::string mechanism_checks(const StabilityData& data);  // Markdown table: what was said, what was measured
-
+// File name to content.
 std::map<std::string, std::string> stability_tables(const StabilityData& data);
 std::map<std::string, std::string> stability_pictures(const StabilityData& data);
-std::string stability_page(const StabilityData& data);
-std::string stability_headline(const StabilityData& data);
+
+// Tables of the page, in Markdown.
+std::string failures_table(const StabilityData& data);  // a line a load number: what fails, what to take instead
+std::string counts_table(const StabilityData& data);
+std::string growth_table(const StabilityData& data);
+std::string breaking_table(const StabilityData& data);
+
+// Measured mechanisms, as the page words them.
+std::string growth_of_right_cells(const StabilityData& data, const std::string& map);
+std::string turns_of_elements(const StabilityData& data);
+std::string errors_over_slenderness(const StabilityData& data, const std::string& method);
+std::string error_over_arcs(const StabilityData& data, const std::string& method);
+bool exact_for_circles(const StabilityData& data);
+bool straight_stays_straight(const StabilityData& data);
+
+std::string where_each_fails(const StabilityData& data);  // one line: wrong and silent, of solves, by method
+std::string silent_by_map(const StabilityData& data);     // one line; empty: no silent answer
+std::string stability_page(const StabilityData& data, const std::filesystem::path& page_md);
+Answers stability_answers(const StabilityData& data);
 
 }  // namespace studies

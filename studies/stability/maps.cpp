@@ -1,16 +1,17 @@
 #include "studies/stability/maps.h"
 
 #include "exact_reference/elastica.h"
-#include "exact_reference/solve.h"
 #include "fam/solve.h"
-#include "fem_reference/solve.h"
-#include "studies/methods/rk4_method.h"
+#include "studies/methods/registry.h"
 #include "studies/stability/planar_march.h"
 
 #include <Eigen/Geometry>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace studies {
 namespace {
@@ -212,20 +213,25 @@ std::vector<StabilityMap> section_maps() {
            none}};
 }
 
-scene::Equilibrium solve_fam(const scene::Scene& scene, fam::Law law, int arcs) {
-  fam::Options options;
-  options.law = law;
-  options.arcs = arcs;
-  options.tolerance_mm = 1e-4 * scene::length_mm(scene);
-  return fam::solve(scene, options);
+constexpr double automatic_tolerance = 1e-4;  // over L, of FAM's automatic choice
+
+Contender of_registry(const std::string& key, const std::string& method, int most_cells, int fixed_cells,
+                      double largest_x = INFINITY) {
+  Request request;
+  if (method == "fam") request.tolerance = automatic_tolerance;
+  if (method == "exact") request.tolerance = 1e-9;
+  request.most_load_steps = most_load_steps;
+  const auto solve = [method, request](const scene::Scene& scene, int count) {
+    Request with_count = request;
+    with_count.count = count;
+    return method_row(method)(with_count)->solve(scene);
+  };
+  return {key, method, most_cells, fixed_cells, largest_x, "", "", solve};
 }
 
-scene::Equilibrium solve_fem(const scene::Scene& scene, int order, int elements) {
-  fem_reference::Options options;
-  options.order = order;
-  options.elements = elements;
-  options.max_load_steps = most_load_steps;
-  return fem_reference::solve(scene, options);
+Contender in_plane(const std::string& arithmetic, scene::Equilibrium (*solve)(const scene::Scene&, int)) {
+  return {
+      "midpoint in " + arithmetic + " precision", "fam_midpoint", 65536, 0, INFINITY, "precision", arithmetic, solve};
 }
 
 }  // namespace
@@ -247,39 +253,36 @@ scene::Scene cell_scene(const std::string& map, double x, double y) {
   throw scene::SceneError("no stability map is called \"" + map + "\"");
 }
 
-std::vector<Contender> contenders() {
-  const auto fam_law = [](const std::string& name, fam::Law law) {
-    return Contender{
-        name, 256, 16, INFINITY, "--method fam --law " + name + " --arcs ", [law](const scene::Scene& scene, int arcs) {
-          return solve_fam(scene, law, arcs);
-        }};
-  };
-  const auto fem = [](const std::string& name, int order) {
-    return Contender{name,
-                     16,
-                     8,
-                     1000,
-                     "--method fem --order " + std::to_string(order) + " --elements ",
-                     [order](const scene::Scene& scene, int elements) { return solve_fem(scene, order, elements); }};
-  };
-  return {fam_law("published", fam::Law::published),
-          fam_law("midpoint", fam::Law::midpoint),
-          fam_law("fourth_order", fam::Law::fourth_order),
-          fam_law("sixth_order", fam::Law::sixth_order),
-          {"fam automatic", 0, 0, INFINITY, "--method fam --tolerance-mm 0.01",
-           [](const scene::Scene& scene, int) { return solve_fam(scene, fam::Law::automatic, 0); }},
-          fem("fem linear", 1),
-          fem("fem quadratic", 2),
-          {"rk4 shooting", 256, 16, INFINITY, "--method rk4 --steps ",
-           [](const scene::Scene& scene, int steps) {
-             return rk4_method({steps, true})->solve(scene);
-           }},
-          {"exact", 0, 0, INFINITY, "--method exact",
-           [](const scene::Scene& scene, int) {
-             return exact_reference::solve(scene, {exact_reference::RodModel::reissner, 1e-9});
-           }},
-          {"midpoint in double precision", 65536, 0, INFINITY, "", solve_in_plane<double>, "precision"},
-          {"midpoint in single precision", 65536, 0, INFINITY, "", solve_in_plane<float>, "precision"}};
+const std::vector<Contender>& contenders() {
+  static const std::vector<Contender> list = {of_registry("published", "fam_published", 256, 16),
+                                              of_registry("midpoint", "fam_midpoint", 256, 16),
+                                              of_registry("fourth_order", "fam_fourth_order", 256, 16),
+                                              of_registry("sixth_order", "fam_sixth_order", 256, 16),
+                                              of_registry("fam automatic", "fam", 0, 0),
+                                              of_registry("fem linear", "fe_linear", 16, 8, 1000),
+                                              of_registry("fem quadratic", "fe", 16, 8, 1000),
+                                              of_registry("rk4 shooting", "rk4", 256, 16),
+                                              of_registry("exact", "exact", 0, 0),
+                                              in_plane("double", solve_in_plane<double>),
+                                              in_plane("single", solve_in_plane<float>)};
+  return list;
+}
+
+const Contender& contender(const std::string& key) {
+  for (const Contender& contender : contenders()) {
+    if (contender.key == key) return contender;
+  }
+  throw std::out_of_range("no contender has the key " + key);
+}
+
+std::string Contender::name() const {
+  return method_row(method).name + (arithmetic.empty() ? "" : ", " + arithmetic + " precision");
+}
+
+std::string Contender::command(int cells) const {
+  const std::string options = method_row(method).options;
+  if (!automatic()) return options + std::to_string(cells);
+  return method == "fam" ? options + fmt::format(" --tolerance-mm {}", automatic_tolerance * length_mm) : options;
 }
 
 std::optional<scene::Scene> turned_to_follower(const scene::Scene& scene, const scene::Equilibrium& equilibrium) {

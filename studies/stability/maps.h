@@ -28,16 +28,18 @@ struct StabilityMap {
 
 // A method with its number of arcs or elements.
 struct Contender {
-  std::string name;
-  int most_cells;       // not asked beyond; 0: chooses its own
-  int fixed_cells;      // in maps that do not say; 0: not asked there
-  double largest_x;     // not asked beyond, where the work would be too much for a picture
-  std::string command;  // options of fam-studies solve, the number of cells last where it takes one
+  std::string key;         // in CSV files
+  std::string method;      // key in the registry
+  int most_cells;          // not asked beyond; 0: chooses its own
+  int fixed_cells;         // in maps that do not say; 0: not asked there
+  double largest_x;        // not asked beyond, where the work would be too much for a picture
+  std::string only_in;     // the one map that asks it, and asks no other
+  std::string arithmetic;  // of the march in the precision map: double or single
   std::function<scene::Equilibrium(const scene::Scene&, int cells)> solve;
 
-  std::string only_in = "";  // the one map that asks it, and asks no other
-
   bool automatic() const { return most_cells == 0; }
+  std::string name() const;              // on pages
+  std::string command(int cells) const;  // options of fam-studies solve
 };
 
 constexpr int most_load_steps = 150;  // of finite elements, accepted and rejected
@@ -46,7 +48,8 @@ std::vector<StabilityMap> stability_maps();
 // The scene of a cell; maps whose y is the number of arcs or elements do not look at y. scene::SceneError: no such map,
 // or values that make no scene.
 scene::Scene cell_scene(const std::string& map, double x, double y);
-std::vector<Contender> contenders();
+const std::vector<Contender>& contenders();  // in the order of the tables
+const Contender& contender(const std::string& key);
 
 // The scene with its fixed point loads replaced by follower loads of the same components in the sections where
 // `equilibrium` has them: it then has the same equilibrium, and can be marched from the tip. Empty where a load is

@@ -1,5 +1,5 @@
-// fam-studies stability: solves the scenes of stability_maps.h by every method, judges each answer against the exact
-// rod, and writes maps, tables, the smallest breaking scenes and a page to results/stability.
+// fam-studies stability: solves the scenes of maps.h by every method, judges each answer against the exact rod, and
+// writes maps, tables, the smallest breaking scenes and a page to results/stability.
 #include "studies/study.h"
 
 #include "exact_reference/solve.h"
@@ -73,11 +73,9 @@ Truth truth_of(const StabilityMap& map, double x, double y) {
 class Stability {
  public:
   explicit Stability(const StudyOptions& options)
-      : options_(options),
-        folder_(options.output / "stability"),
-        progress_("stability", stability_maps().size(), options.progress) {
+      : options_(options), progress_("stability", stability_maps().size(), options.progress) {
     data_.maps = stability_maps();
-    for (const Contender& contender : contenders_) data_.methods.push_back(contender.name);
+    for (const Contender& contender : contenders()) data_.methods.push_back(contender.key);
   }
 
   void run() {
@@ -96,7 +94,7 @@ class Stability {
       for (const double y : map.y.values) {
         // With the resolution on the y axis the scene is the same in the whole column.
         if (!map.y_is_cells || y == map.y.values.front()) truth = checked_truth(map, x, y, check);
-        for (const Contender& contender : contenders_) ask(map, contender, x, y, truth.tip);
+        for (const Contender& contender : contenders()) ask(map, contender, x, y, truth.tip);
       }
     }
     data_.checks.push_back(check);
@@ -127,12 +125,12 @@ class Stability {
     const auto refined = [&] { return contender.solve(scene, 4 * cells); };
     const Judgement judgement = judge(answer, truth, scene::length_mm(scene), refined);
     data_.cells.push_back(
-        {map.name, contender.name, x, y, cells, judgement, scene::name(answer.status), answer.message});
+        {map.name, contender.key, x, y, cells, judgement, scene::name(answer.status), answer.message});
   }
 
   // The tip's direction under a fixed transverse force, turned by 1e-8 rad and marched to the clamp.
   void measure_sensitivity() {
-    const StabilityMap& fixed = map_named("fixed");
+    const StabilityMap& fixed = data_.map_named("fixed");
     for (const double load : {1.0, 10.0, 30.0, 100.0, 200.0}) {
       constexpr double nudge_rad = 1e-8;
       const scene::Scene scene = fixed.scene(load, 0);
@@ -145,20 +143,16 @@ class Stability {
     }
   }
 
-  const StabilityMap& map_named(const std::string& name) const {
-    return *std::find_if(data_.maps.begin(), data_.maps.end(), [&](const StabilityMap& m) { return m.name == name; });
-  }
-
   // Of each method: the first silent answer, else the first that failed or was flagged, in the order of the maps, of
   // the loads and of the cells.
   void collect_breaking_scenes() {
-    for (const Contender& contender : contenders_) {
+    for (const Contender& contender : contenders()) {
       if (!contender.only_in.empty()) continue;
       const StabilityCell* worst = nullptr;
       const auto rank = [](Verdict v) { return is_silent(v) ? 3 : v == Verdict::flagged ? 1 : 2; };
       for (const StabilityCell& cell : data_.cells) {
         const Verdict verdict = cell.judgement.verdict;
-        if (cell.method != contender.name || is_right(verdict) || verdict == Verdict::unsupported) continue;
+        if (cell.method != contender.key || is_right(verdict) || verdict == Verdict::unsupported) continue;
         if (worst == nullptr || rank(verdict) > rank(worst->judgement.verdict)) worst = &cell;
       }
       if (worst != nullptr) data_.breaking.push_back(breaking_scene(contender, *worst));
@@ -166,27 +160,25 @@ class Stability {
   }
 
   BreakingScene breaking_scene(const Contender& contender, const StabilityCell& cell) const {
-    const StabilityMap& map = map_named(cell.map);
-    std::string name = contender.name;
+    const StabilityMap& map = data_.map_named(cell.map);
+    std::string name = contender.key;
     std::replace(name.begin(), name.end(), ' ', '_');
     scene::Scene scene = map.scene(cell.x, cell.y);
     scene.title = map.title + ": " + axis_text(cell.x) + (map.y_is_cells ? "" : ", " + axis_text(cell.y));
-    const std::string command = contender.command + (contender.automatic() ? "" : std::to_string(cell.cells));
-    return {name, cell.map + " at " + axis_text(cell.x) + ", " + axis_text(cell.y), command, cell, scene};
+    const std::string place = cell.map + " at " + axis_text(cell.x) + (map.y_is_cells ? "" : ", " + axis_text(cell.y));
+    return {name, place, contender.command(cell.cells), cell, scene};
   }
 
   void write() const {
     std::map<std::string, std::string> files = stability_tables(data_);
     files.merge(stability_pictures(data_));
-    files["README.md"] = stability_page(data_);
-    files["headline.md"] = stability_headline(data_);
+    files["README.md"] = stability_page(data_, options_.pages / "stability/page.md");
+    files[answers_file] = answers_json(stability_answers(data_));
     for (const BreakingScene& b : data_.breaking) files["scenes/" + b.name + ".json"] = scene::write_scene(b.scene);
-    write_results(folder_, "fam-studies stability", files);
+    write_results(options_.output / "stability", "fam-studies stability", files);
   }
 
   StudyOptions options_;
-  std::filesystem::path folder_;
-  std::vector<Contender> contenders_ = contenders();
   StabilityData data_;
   Progress progress_;
 };

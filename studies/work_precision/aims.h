@@ -1,4 +1,4 @@
-// The project's aims in time, measured in one run: FAM and plain shooting at equal error on single scenes.
+// FAM's kernels and plain shooting at equal error on single scenes, in one run: the project's aims in time.
 #pragma once
 
 #include "studies/compare/stopwatch.h"
@@ -13,13 +13,12 @@ struct AimRow {
   std::string scene;
   double target_mm = 0;  // true tip error, against the exact Kirchhoff rod
   double aim_us = 0;
-  std::string series;
+  std::string method;  // key in the registry
   int resolution = 0;  // the fewest arcs or steps n such that n, n + 1 and 2 n are within the target; 0: none
   double error_mm = 0;
   Timing time;
 };
 
 std::vector<AimRow> measured_aims(const StudyOptions& options);
-std::string aims_table(const std::vector<AimRow>& rows);  // Markdown; ratios to the first row of each aim
 
 }  // namespace studies

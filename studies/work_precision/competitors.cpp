@@ -1,135 +1,101 @@
 #include "studies/work_precision/competitors.h"
 
-#include "studies/methods/elastica_method.h"
-#include "studies/methods/exact_method.h"
-#include "studies/methods/fam_method.h"
-#include "studies/methods/fem_method.h"
-#include "studies/methods/rk4_method.h"
-
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
 
 namespace studies {
 namespace {
 
-// A new law of fam::Law needs its line here.
-const std::vector<fam::Law> laws = {fam::Law::published, fam::Law::midpoint, fam::Law::fourth_order,
-                                    fam::Law::sixth_order};
-
 const std::vector<int> arc_counts = {1, 2, 4, 8, 12, 16, 32, 64, 128, 256, 512};
 const std::vector<int> step_counts = {2, 4, 8, 16, 32, 64, 128, 256, 512};
 
-std::string counted(int count, const std::string& thing) {
-  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
-}
-
-const char* model_name(bool with_shear) {
-  return with_shear ? "Reissner" : "Kirchhoff";
-}
-
-void add_fam(std::vector<Competitor>& list, bool with_shear) {
-  for (const fam::Law law : laws) {
-    if (law == fam::Law::published && with_shear) continue;
-    for (const int arcs : arc_counts) {
-      fam::Options options;
-      options.law = law;
-      options.model = with_shear ? fam::RodModel::reissner : fam::RodModel::kirchhoff;
-      options.arcs = arcs;
-      options.estimate_error = false;
-      list.push_back({std::string("fam ") + fam::name(law), model_name(with_shear), counted(arcs, "arc"),
-                      std::to_string(arcs), fam_method(options)});
-    }
-  }
-}
-
-// Its tolerance is a length in mm; the rest of the study counts in rod lengths.
-class FamAutomatic : public Method {
- public:
-  explicit FamAutomatic(double tolerance) : tolerance_(tolerance) {}
-  std::string name() const override { return "fam automatic"; }
-  std::string resolution() const override { return fmt::format("{:.0e} L", tolerance_); }
-  scene::Equilibrium solve(const scene::Scene& scene) const override { return fam::solve(scene, options(scene)); }
-  std::function<void()> bare_solve(const scene::Scene& scene) const override {
-    return fam_method(options(scene))->bare_solve(scene);
-  }
-
- private:
-  fam::Options options(const scene::Scene& scene) const {
-    fam::Options options;
-    options.tolerance_mm = tolerance_ * scene::length_mm(scene);
-    return options;
-  }
-  double tolerance_;
-};
-
-void add_fam_automatic(std::vector<Competitor>& list) {
-  for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9}) {
-    auto method = std::make_unique<FamAutomatic>(tolerance);
-    const std::string text = method->resolution();
-    list.push_back({"fam automatic", "Reissner", text, text, std::move(method)});
-  }
-}
-
-void add_shooting(std::vector<Competitor>& list, bool with_shear) {
-  for (const int steps : step_counts) {
-    list.push_back({"rk4 shooting", model_name(with_shear), counted(steps, "step"), std::to_string(steps),
-                    rk4_method({steps, with_shear})});
-  }
-}
-
-void add_exact(std::vector<Competitor>& list, bool with_shear) {
-  for (const double tolerance : {1e-3, 1e-6, 1e-9, 1e-12}) {
-    exact_reference::Options options;
-    options.tolerance = tolerance;
-    options.model = with_shear ? exact_reference::RodModel::reissner : exact_reference::RodModel::kirchhoff;
-    const std::string text = fmt::format("{:.0e} L", tolerance);
-    list.push_back({"exact reference", model_name(with_shear), text, text, exact_method(options)});
-  }
-}
-
-std::vector<int> element_counts(FeMeshes meshes, bool with_shear, int order) {
+std::vector<int> element_counts(FeMeshes meshes, bool with_shear, bool linear) {
   if (meshes == FeMeshes::few && !with_shear) return {};
-  if (meshes == FeMeshes::few && order == 1) return {1, 4, 16, 50};
+  if (meshes == FeMeshes::few && linear) return {1, 4, 16, 50};
   if (meshes == FeMeshes::few) return {1, 2, 4, 8, 16, 32, 50};
   std::vector<int> counts = {1, 2, 4, 8, 16, 32, 50, 100};
   if (meshes == FeMeshes::most && with_shear) counts.insert(counts.end(), {200, 400});
   return counts;
 }
 
-void add_finite_elements(std::vector<Competitor>& list, bool with_shear, FeMeshes meshes) {
-  for (const int order : {1, 2}) {
-    for (const bool whole_load : {true, false}) {
-      for (const int elements : element_counts(meshes, with_shear, order)) {
-        fem_reference::Options options;
-        options.elements = elements;
-        options.order = order;
-        options.model = with_shear ? fem_reference::RodModel::reissner : fem_reference::RodModel::kirchhoff;
-        options.estimate_error = false;
-        if (whole_load) {
-          options.initial_load_step = 1;
-          options.largest_rotation_rad = 3;
-        }
-        const std::string series =
-            std::string(order == 1 ? "fe linear" : "fe quadratic") + (whole_load ? " whole load" : " adaptive");
-        list.push_back({series, model_name(with_shear), counted(elements, "element"), std::to_string(elements),
-                        fem_method(options)});
-      }
-    }
+std::vector<double> tolerances(const Series& series) {
+  if (series.method == "fam") return {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9};
+  if (series.method == "exact") return {1e-3, 1e-6, 1e-9, 1e-12};
+  return {};
+}
+
+std::vector<int> counts(const Series& series, FeMeshes meshes, bool with_shear) {
+  const std::string& thing = series.row().counts;
+  if (thing == "arc") return arc_counts;
+  if (thing == "step") return step_counts;
+  if (thing == "element") return element_counts(meshes, with_shear, series.method == "fe_linear");
+  return {};
+}
+
+// FAM's automatic choice takes its rod model itself.
+Request request_of(const Series& series, bool with_shear) {
+  Request request;
+  if (series.method != "fam") {
+    request.model = with_shear ? scene::RodModel::reissner : scene::RodModel::kirchhoff;
+    request.estimate_error = false;
   }
+  request.whole_load = series.whole_load;
+  return request;
+}
+
+void add(std::vector<Competitor>& list, const Series& series, FeMeshes meshes, bool with_shear) {
+  const MethodRow& row = series.row();
+  const std::string model = with_shear ? "Reissner" : "Kirchhoff";
+  Request request = request_of(series, with_shear);
+  for (const int count : counts(series, meshes, with_shear)) {
+    request.count = count;
+    list.push_back({series.key, model, counted(count, row.counts), std::to_string(count), row(request)});
+  }
+  for (const double tolerance : tolerances(series)) {
+    request.tolerance = tolerance;
+    const std::string text = fmt::format("{:.0e} L", tolerance);
+    list.push_back({series.key, model, text, text, row(request)});
+  }
+  if (row.key == "elastica") list.push_back({series.key, model, "elliptic functions", "exact", row()});
 }
 
 }  // namespace
 
+std::string Series::name() const {
+  return row().name + (whole_load ? ", whole load first" : "");
+}
+
+const std::vector<Series>& all_series() {
+  static const std::vector<Series> series = {{"fam published", "fam_published", true, false},
+                                             {"fam midpoint", "fam_midpoint"},
+                                             {"fam fourth_order", "fam_fourth_order"},
+                                             {"fam sixth_order", "fam_sixth_order"},
+                                             {"fam automatic", "fam", false, true},
+                                             {"rk4 shooting", "rk4"},
+                                             {"exact reference", "exact"},
+                                             {"closed form", "elastica", true, false},
+                                             {"fe linear whole load", "fe_linear", true, true, true},
+                                             {"fe linear adaptive", "fe_linear"},
+                                             {"fe quadratic whole load", "fe", true, true, true},
+                                             {"fe quadratic adaptive", "fe"}};
+  return series;
+}
+
+const Series& series_named(const std::string& key) {
+  for (const Series& series : all_series()) {
+    if (series.key == key) return series;
+  }
+  throw std::out_of_range("no series has the key " + key);
+}
+
 std::vector<Competitor> competitors(FeMeshes meshes) {
   std::vector<Competitor> list;
   for (const bool with_shear : {false, true}) {
-    add_fam(list, with_shear);
-    if (with_shear) add_fam_automatic(list);
-    add_shooting(list, with_shear);
-    add_exact(list, with_shear);
-    if (!with_shear) {
-      list.push_back({"closed form", "Kirchhoff", "elliptic functions", "exact", elastica_method()});
+    for (const Series& series : all_series()) {
+      if (with_shear ? series.reissner : series.kirchhoff) add(list, series, meshes, with_shear);
     }
-    add_finite_elements(list, with_shear, meshes);
   }
   return list;
 }

@@ -1,9 +1,11 @@
-// What the work-precision study measured; its tables, pictures and pages are pure functions of it.
+// What the work-precision study measured; its tables, pictures and page are pure functions of it.
 #pragma once
 
 #include "studies/compare/stopwatch.h"
+#include "studies/report/answers.h"
 #include "studies/work_precision/aims.h"
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -22,49 +24,76 @@ struct WorkPoint {
   std::optional<Timing> warm;
 
   bool converged() const { return status == "converged"; }
+  bool unsupported() const { return status == "unsupported"; }
 };
 
-struct WorkGroup {
+struct WorkScene {
   std::string name;
-  std::string folder;  // of the scene files in studies/cases
-  std::vector<std::string> scenes;
+  std::string folder;     // of the scene file in studies/cases
+  bool follower = false;  // all loads turn with the rod
 };
 
 struct WorkData {
-  std::vector<AimRow> aims;
-  std::vector<WorkGroup> groups;
+  std::vector<WorkScene> scenes;
   std::vector<WorkPoint> points;
+  std::vector<AimRow> aims;
 
+  // The resolutions of a series on a scene, in order of rising effort.
   std::vector<const WorkPoint*> of(const std::string& scene, const std::string& series, const std::string& model) const;
-  std::vector<std::string> series(const std::string& model) const;  // in the order of the competitors
+  std::vector<std::string> names(bool follower) const;
+  // Resolutions that were tried on any of the scenes, in order of rising effort.
   std::vector<std::string> labels(const std::string& series, const std::string& model,
-                                  const std::vector<std::string>& scenes) const;  // resolutions, rising effort
+                                  const std::vector<std::string>& of_scenes) const;
 };
 
 inline const std::vector<double> work_targets = {1e-2, 1e-3, 1e-5, 1e-8};  // tip error over L
 inline const std::vector<std::string> work_models = {"Kirchhoff", "Reissner"};
 
 constexpr double work_error_floor = 1e-12;  // smaller errors are written as this
-constexpr double lost_error = 0.1;          // converged, but so far away: another equilibrium
+constexpr double lost_error = 0.1;          // converged at the finest resolution, but so far away: another equilibrium
 
-// Median time, µs, of the cheapest resolution that is within the target on the scene; NaN where none is.
+std::string target_text(double target);  // "1e-03 L"
+
+// A row of the page's tables and a curve of its pictures: a series, or the faster of two of the same method.
+struct Contestant {
+  std::string method;  // key in the registry
+  std::string model;
+  std::vector<std::string> series;
+
+  std::string name() const;
+};
+const std::vector<Contestant>& contestants();
+const Contestant& contestant(const std::string& method);
+
+// Median time, µs, of the cheapest resolution that is within the target on the scene; of FAM's automatic choice, which
+// is asked for a tolerance, the time when it is asked for the target. Infinite where none is within it.
 double time_to_us(const WorkData& data, const std::string& scene, const std::string& series, const std::string& model,
                   double target, bool warm = false);
+double time_to_us(const WorkData& data, const std::string& scene, const Contestant& contestant, double target);
 
-// Median over the scenes of a group of time_to_us, over those that reach the target.
-struct GroupTime {
-  double median_us = 0;  // NaN where none reaches it
-  int reached = 0;
-  int tried = 0;  // and not refused
+// Quantiles over all scenes; one where the target is not reached counts as infinitely slow.
+struct Spread {
+  double median = 0, lower = 0, upper = 0;
+  int reached = 0, scenes = 0;
 };
-GroupTime group_time(const WorkData& data, const WorkGroup& group, const std::string& series, const std::string& model,
-                     double target, bool warm = false);
+Spread spread_of(const std::vector<double>& values);
+Spread times_to_us(const WorkData& data, bool follower, const Contestant& contestant, double target);
+// Time over that of FAM's automatic choice, on the scenes where that reaches the target.
+Spread ratios_to_automatic(const WorkData& data, bool follower, const Contestant& contestant, double target);
 
-// File name to content.
+// On how many scenes each of these is the fastest within the target.
+std::vector<int> wins_of(const WorkData& data, bool follower, const std::vector<Contestant>& among, double target);
+
+// File name to content; the tables of the page are Markdown.
 std::map<std::string, std::string> work_precision_tables(const WorkData& data);
-std::map<std::string, std::string> work_precision_pictures(const WorkData& data);
-std::string work_precision_page(const WorkData& data);
-std::string work_precision_headline(const WorkData& data);
-std::string work_precision_timing_page(const WorkData& data);
+std::string times_table(const WorkData& data, bool follower);
+std::string ratios_table(const WorkData& data, bool follower);
+std::string resolutions_table(const WorkData& data, bool follower);
+std::string failures_table(const WorkData& data);
+std::string aims_table(const WorkData& data);
+
+std::string work_precision_picture(const WorkData& data);
+std::string work_precision_page(const WorkData& data, const std::filesystem::path& page_md);
+Answers work_precision_answers(const WorkData& data);
 
 }  // namespace studies

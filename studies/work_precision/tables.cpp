@@ -1,6 +1,10 @@
-#include "studies/report/provenance.h"
 #include "studies/report/table.h"
+
+#include "studies/report/provenance.h"
+#include "studies/work_precision/competitors.h"
 #include "studies/work_precision/data.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +12,6 @@
 
 namespace studies {
 namespace {
-
-void add_once(std::vector<std::string>& list, const std::string& text) {
-  if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
-}
 
 std::string error_cell(double error) {
   return std::isfinite(error) ? scientific(std::max(error, work_error_floor), 1) : "–";
@@ -34,100 +34,216 @@ std::string timing_csv(const WorkData& data) {
                "upper_quartile_us", "repeats"});
   const auto add = [&](const WorkPoint& p, const char* start, const Timing& t) {
     table.add({p.scene, p.series, p.model, p.resolution, p.status, start, fixed(t.median_us, 2),
-               fixed(t.lower_quartile_us, 2), fixed(t.upper_quartile_us, 2), std::to_string(t.repeats)});
+               t.has_spread() ? fixed(t.lower_quartile_us, 2) : "", t.has_spread() ? fixed(t.upper_quartile_us, 2) : "",
+               std::to_string(t.repeats)});
   };
   for (const WorkPoint& p : data.points) {
     if (p.time) add(p, "cold", *p.time);
     if (p.warm) add(p, "warm", *p.warm);
   }
-  return table.csv({machine_line(), "The bare solve; where the status is not converged, until it gave up."});
+  return table.csv({machine_line(),
+                    "The bare solve; where the status is not converged, until it gave up. Quartiles from seven "
+                    "repeats on."});
 }
 
 std::string time_to_csv(const WorkData& data) {
-  Table table({"scene", "method", "model", "start", "target_over_L", "time_us"});
-  const auto add = [&](const std::string& scene, const std::string& series, const std::string& model, bool warm) {
+  Table table({"scene", "loads", "method", "model", "start", "target_over_L", "time_us"});
+  const auto add = [&](const WorkScene& scene, const std::string& series, const std::string& model, bool warm) {
     for (const double target : work_targets) {
-      const double time = time_to_us(data, scene, series, model, target, warm);
-      table.add({scene, series, model, warm ? "warm" : "cold", scientific(target, 0),
-                 std::isfinite(time) ? fixed(time, 2) : "nan"});
+      const double time = time_to_us(data, scene.name, series, model, target, warm);
+      table.add({scene.name, scene.follower ? "follower" : "fixed", series, model, warm ? "warm" : "cold",
+                 scientific(target, 0), std::isfinite(time) ? fixed(time, 2) : "nan"});
     }
   };
-  for (const WorkGroup& group : data.groups) {
-    for (const std::string& scene : group.scenes) {
-      for (const std::string& model : work_models) {
-        for (const std::string& series : data.series(model)) {
-          add(scene, series, model, false);
-          if (series == "rk4 shooting") add(scene, series, model, true);
-        }
+  for (const WorkScene& scene : data.scenes) {
+    for (const std::string& model : work_models) {
+      for (const Series& series : all_series()) {
+        if (model == "Kirchhoff" ? !series.kirchhoff : !series.reissner) continue;
+        add(scene, series.key, model, false);
+        if (series.method == "rk4") add(scene, series.key, model, true);
       }
     }
   }
-  return table.csv({machine_line(), "Cheapest resolution whose tip error over L is within the target; nan: none is."});
+  return table.csv({machine_line(),
+                    "Cheapest resolution whose tip error over L is within the target; nan: none is. fam automatic: "
+                    "asked for the target."});
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+std::string aims_csv(const WorkData& data) {
+  Table table({"scene", "target_mm", "method", "resolution", "tip_error_mm"});
+  for (const AimRow& row : data.aims) {
+    table.add({row.scene, scientific(row.target_mm, 0), row.method, std::to_string(row.resolution),
+               row.resolution > 0 ? scientific(row.error_mm, 1) : ""});
+  }
+  return table.csv(
+      {"Fewest arcs or steps n such that n, n + 1 and 2 n are within the tip error, Kirchhoff rod; 0: none "
+       "up to 1000."});
+}
+
+std::string timing_aims_csv(const WorkData& data) {
+  Table table({"scene", "target_mm", "method", "resolution", "aim_us", "median_us", "lower_quartile_us",
+               "upper_quartile_us", "repeats"});
+  for (const AimRow& row : data.aims) {
+    if (row.resolution == 0) continue;
+    const bool spread = row.time.has_spread();
+    table.add({row.scene, scientific(row.target_mm, 0), row.method, std::to_string(row.resolution),
+               fmt::format("{}", row.aim_us), fixed(row.time.median_us, 3),
+               spread ? fixed(row.time.lower_quartile_us, 3) : "", spread ? fixed(row.time.upper_quartile_us, 3) : "",
+               std::to_string(row.time.repeats)});
+  }
+  return table.csv({machine_line()});
+}
+
+std::string share_text(int holds, std::size_t all) {
+  return static_cast<std::size_t>(holds) == all ? "" : fmt::format(" [{}/{}]", holds, all);
+}
+
+// "14.1 (10.2 … 17.9) [15/17]": median, quartiles, scenes that reach the target.
+std::string spread_cell(const Spread& spread, int digits) {
+  const std::string share = share_text(spread.reached, static_cast<std::size_t>(spread.scenes));
+  if (spread.reached == 0) return "–";
+  if (!std::isfinite(spread.median)) return "–" + share;
+  return fmt::format("{} ({} … {}){}", significant(spread.median, digits), significant(spread.lower, digits),
+                     significant(spread.upper, digits), share);
+}
+
+std::vector<std::string> head_of_targets(const std::string& first) {
+  std::vector<std::string> head{first};
+  for (const double target : work_targets) head.push_back(target_text(target));
+  return head;
+}
+
+// The coarsest resolution within the target on as many scenes as any; "32 [15/16]" where these are not all.
+std::string coarsest(const WorkData& data, bool follower, const std::string& series, const std::string& model,
+                     double target) {
+  const std::vector<std::string> scenes = data.names(follower);
+  std::string best_label;
+  int best = 0;
+  for (const std::string& label : data.labels(series, model, scenes)) {
+    const auto holds = [&](const std::string& scene) {
+      const auto points = data.of(scene, series, model);
+      return std::any_of(points.begin(), points.end(),
+                         [&](const WorkPoint* p) { return p->label == label && p->converged() && p->error <= target; });
+    };
+    const int count = static_cast<int>(std::count_if(scenes.begin(), scenes.end(), holds));
+    if (count > best) best = count, best_label = label;
+  }
+  return best == 0 ? "–" : best_label + share_text(best, scenes.size());
+}
+
+bool solves_any(const WorkData& data, bool follower, const Contestant& contestant) {
+  const std::string& series = contestant.series.back();
+  return coarsest(data, follower, series, contestant.model, work_targets.front()) != "–";
+}
+
+// A finer resolution at least twice as far away as a coarser one, above round-off.
+bool worsens(const std::vector<const WorkPoint*>& points) {
+  constexpr double resolved = 1e-9;
+  double least = std::numeric_limits<double>::infinity();
+  for (const WorkPoint* p : points) {
+    if (p->converged() && p->error > resolved && p->error > 2 * least) return true;
+    if (p->converged()) least = std::min(least, p->error);
+  }
+  return false;
+}
+
+// Scenes where the finest resolution of a series fails, by kind.
+struct Failures {
+  int scenes = 0, unsupported = 0;
+  std::string not_converged, lost, worse;
+
+  bool any() const { return unsupported > 0 || !(not_converged + lost + worse).empty(); }
+};
+
+Failures failures_of(const WorkData& data, const std::string& series, const std::string& model) {
+  Failures failures;
+  const auto add = [](std::string& list, const std::string& name) { list += (list.empty() ? "" : ", ") + name; };
+  for (const WorkScene& scene : data.scenes) {
+    const std::vector<const WorkPoint*> points = data.of(scene.name, series, model);
+    if (points.empty()) continue;
+    const WorkPoint& finest = *points.back();
+    ++failures.scenes;
+    if (worsens(points)) add(failures.worse, scene.name);
+    if (finest.unsupported()) ++failures.unsupported;
+    else if (!finest.converged()) add(failures.not_converged, scene.name);
+    else if (finest.error > lost_error) add(failures.lost, scene.name);
+  }
+  return failures;
 }
 
 }  // namespace
 
-std::vector<const WorkPoint*> WorkData::of(const std::string& scene, const std::string& series,
-                                           const std::string& model) const {
-  std::vector<const WorkPoint*> list;
-  for (const WorkPoint& p : points) {
-    if (p.scene == scene && p.series == series && p.model == model) list.push_back(&p);
+std::string times_table(const WorkData& data, bool follower) {
+  Table table(head_of_targets("µs"));
+  for (const Contestant& c : contestants()) {
+    std::vector<std::string> cells{c.name()};
+    for (const double target : work_targets) cells.push_back(spread_cell(times_to_us(data, follower, c, target), 3));
+    if (solves_any(data, follower, c)) table.add(std::move(cells));
   }
-  return list;
+  return table.markdown();
 }
 
-std::vector<std::string> WorkData::series(const std::string& model) const {
-  std::vector<std::string> list;
-  for (const WorkPoint& p : points) {
-    if (p.model == model) add_once(list, p.series);
+std::string ratios_table(const WorkData& data, bool follower) {
+  Table table(head_of_targets(follower ? "follower loads" : "fixed loads"));
+  for (const char* method : {"fam_sixth_order", "rk4", "fe"}) {
+    const Contestant& rival = contestant(method);
+    std::vector<std::string> cells{rival.name()};
+    for (const double target : work_targets) {
+      cells.push_back(spread_cell(ratios_to_automatic(data, follower, rival, target), 2));
+    }
+    table.add(std::move(cells));
   }
-  return list;
+  return table.markdown();
 }
 
-std::vector<std::string> WorkData::labels(const std::string& series, const std::string& model,
-                                          const std::vector<std::string>& scenes) const {
-  std::vector<std::string> list;
-  for (const std::string& scene : scenes) {
-    for (const WorkPoint* p : of(scene, series, model)) add_once(list, p->label);
+std::string resolutions_table(const WorkData& data, bool follower) {
+  Table table(head_of_targets(follower ? "follower loads" : "fixed loads"));
+  for (const Contestant& c : contestants()) {
+    std::vector<std::string> cells{c.name()};
+    for (const double target : work_targets)
+      cells.push_back(coarsest(data, follower, c.series.back(), c.model, target));
+    if (solves_any(data, follower, c)) table.add(std::move(cells));
   }
-  return list;
+  return table.markdown();
 }
 
-double time_to_us(const WorkData& data, const std::string& scene, const std::string& series, const std::string& model,
-                  double target, bool warm) {
-  double best = std::numeric_limits<double>::quiet_NaN();
-  for (const WorkPoint* p : data.of(scene, series, model)) {
-    const std::optional<Timing>& time = warm ? p->warm : p->time;
-    if (p->converged() && p->error <= target && time) best = std::fmin(best, time->median_us);
+std::string failures_table(const WorkData& data) {
+  Table table({"method", "rod", "scenes", "refused", "no convergence", "another equilibrium", "finer yet worse"});
+  for (const std::string& model : work_models) {
+    for (const Series& series : all_series()) {
+      const Failures f = failures_of(data, series.key, model);
+      if (f.any())
+        table.add({series.name(), model, std::to_string(f.scenes), std::to_string(f.unsupported), f.not_converged,
+                   f.lost, f.worse});
+    }
   }
-  return best;
+  return table.markdown();
 }
 
-GroupTime group_time(const WorkData& data, const WorkGroup& group, const std::string& series, const std::string& model,
-                     double target, bool warm) {
-  std::vector<double> times;
-  GroupTime result;
-  for (const std::string& scene : group.scenes) {
-    const std::vector<const WorkPoint*> points = data.of(scene, series, model);
-    if (!points.empty() && points.front()->status != "unsupported") ++result.tried;
-    const double time = time_to_us(data, scene, series, model, target, warm);
-    if (std::isfinite(time)) times.push_back(time);
+std::string aims_table(const WorkData& data) {
+  Table table(
+      {"scene", "tip within, mm", "aim, µs", "method", "arcs or steps", "tip error, mm", "time, µs", "over the first"});
+  const AimRow* first = nullptr;
+  for (const AimRow& row : data.aims) {
+    if (first == nullptr || row.scene != first->scene || row.target_mm != first->target_mm) first = &row;
+    const bool none = row.resolution == 0;
+    const std::string spread = row.time.has_spread()
+                                   ? fmt::format(" ({} … {})", significant(row.time.lower_quartile_us, 3),
+                                                 significant(row.time.upper_quartile_us, 3))
+                                   : "";
+    table.add({row.scene, scientific(row.target_mm, 0), fmt::format("{}", row.aim_us), method_row(row.method).name,
+               none ? "–" : std::to_string(row.resolution), none ? "–" : scientific(row.error_mm, 1),
+               none ? "–" : significant(row.time.median_us, 3) + spread,
+               none || first->resolution == 0 ? "–" : significant(row.time.median_us / first->time.median_us, 2)});
   }
-  result.median_us = median(times);
-  result.reached = static_cast<int>(times.size());
-  return result;
+  return table.markdown();
 }
 
 std::map<std::string, std::string> work_precision_tables(const WorkData& data) {
   return {{"accuracy.csv", accuracy_csv(data)},
+          {"aims.csv", aims_csv(data)},
           {"timing.csv", timing_csv(data)},
+          {"timing_aims.csv", timing_aims_csv(data)},
           {"timing_to_accuracy.csv", time_to_csv(data)}};
 }
 

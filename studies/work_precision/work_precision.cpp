@@ -1,6 +1,6 @@
-// fam-studies work-precision: reads studies/cases/{P,S}{1..8}_{follower,fixed}.json, study2_gravity_y.json and
-// work_precision_*.json, solves each with every method at every resolution, times the solves, and writes tables,
-// pictures and pages to results/work_precision. Some three minutes; ten seconds with --quick, which times one scene.
+// fam-studies work-precision: the 16 cases of Study I in both frames, Study II with gravity and
+// studies/cases/work_precision, each solved by every method at every resolution and timed. Some three minutes; with
+// --quick one scene is timed.
 #include "studies/study.h"
 
 #include "exact_reference/solve.h"
@@ -23,20 +23,26 @@ const std::string quick_scene = "P1_follower";
 const std::vector<std::string> many_meshes = {"S4_fixed", "study2_gravity_y"};
 const std::vector<std::string> most_meshes = {"P2_fixed", "S4_follower"};
 
-std::vector<WorkGroup> scene_groups() {
-  std::vector<WorkGroup> groups;
+std::vector<WorkScene> work_scenes() {
+  std::vector<WorkScene> scenes;
   for (const std::string frame : {"follower", "fixed"}) {
-    WorkGroup group{"Study I, " + frame + " loads", "study1", {}};
-    for (const std::string& load_case : study1_cases()) group.scenes.push_back(fmt::format("{}_{}", load_case, frame));
-    groups.push_back(std::move(group));
+    for (const std::string& load_case : study1_cases())
+      scenes.push_back({fmt::format("{}_{}", load_case, frame), "study1"});
   }
-  groups.push_back({"catheter with gravity", "study2", {"study2_gravity_y"}});
-  for (const std::string load : {"10", "100", "1000"}) {
-    groups.push_back({"transverse force, F L²/EI = " + load, "work_precision", {"work_precision_load_" + load}});
+  scenes.push_back({"study2_gravity_y", "study2"});
+  for (const std::string name : {"load_10", "load_100", "load_1000", "moment", "torque"}) {
+    scenes.push_back({"work_precision_" + name, "work_precision"});
   }
-  groups.push_back({"end moment, a full circle", "work_precision", {"work_precision_moment"}});
-  groups.push_back({"torque with a force", "work_precision", {"work_precision_torque"}});
-  return groups;
+  return scenes;
+}
+
+bool follows(const scene::Load& load) {
+  return std::visit(
+      [](const auto& l) {
+        if constexpr (requires { l.frame; }) return l.frame == scene::Frame::follower;
+        else return std::is_same_v<std::decay_t<decltype(l)>, scene::Tendon>;
+      },
+      load);
 }
 
 FeMeshes meshes_for(const std::string& scene) {
@@ -55,24 +61,22 @@ scene::Equilibrium exact_rod(const scene::Scene& scene, const std::string& model
 class WorkPrecision {
  public:
   explicit WorkPrecision(const StudyOptions& options)
-      : options_(options),
-        folder_(options.output / "work_precision"),
-        progress_("work-precision", 39, options.progress) {}
+      : options_(options), progress_("work-precision", 39, options.progress) {}
 
   void run() {
-    data_.groups = scene_groups();
-    for (const WorkGroup& group : data_.groups) {
-      for (const std::string& scene : group.scenes) solve_scene(group.folder, scene);
-    }
+    data_.scenes = work_scenes();
+    for (WorkScene& scene : data_.scenes) solve_scene(scene);
     progress_.step("aims");
     data_.aims = measured_aims(options_);
     write();
   }
 
  private:
-  void solve_scene(const std::string& folder, const std::string& name) {
+  void solve_scene(WorkScene& of_study) {
+    const std::string& name = of_study.name;
     progress_.step(name);
-    const scene::Scene scene = read_case(options_.cases, folder + "/" + name);
+    const scene::Scene scene = read_case(options_.cases, of_study.folder + "/" + name);
+    of_study.follower = std::all_of(scene.loads.begin(), scene.loads.end(), follows);
     std::map<std::string, scene::Equilibrium> exact;
     for (const std::string& model : work_models) exact[model] = exact_rod(scene, model);
     for (const Competitor& competitor : competitors(meshes_for(name))) {
@@ -109,15 +113,13 @@ class WorkPrecision {
 
   void write() const {
     std::map<std::string, std::string> files = work_precision_tables(data_);
-    files.merge(work_precision_pictures(data_));
-    files["README.md"] = work_precision_page(data_);
-    files["headline.md"] = work_precision_headline(data_);
-    files["timing.md"] = work_precision_timing_page(data_);
-    write_results(folder_, "fam-studies work-precision", files);
+    files["timing_overview.svg"] = work_precision_picture(data_);
+    files["README.md"] = work_precision_page(data_, options_.pages / "work_precision/page.md");
+    files[answers_file] = answers_json(work_precision_answers(data_));
+    write_results(options_.output / "work_precision", "fam-studies work-precision", files);
   }
 
   StudyOptions options_;
-  std::filesystem::path folder_;
   WorkData data_;
   Progress progress_;
 };
