@@ -1,6 +1,5 @@
 #include "studies/registry.h"
 
-#include "studies/report/answers.h"
 #include "studies/report/output_file.h"
 #include "studies/report/page.h"
 

@@ -1,6 +1,5 @@
 // The strict filler of pages, the answers, and what a long command says.
 #include "studies/report/page.h"
-#include "studies/report/answers.h"
 #include "studies/report/output_file.h"
 #include "studies/report/progress.h"
 #include "studies/report/table.h"

@@ -11,7 +11,7 @@
 namespace studies {
 namespace {
 
-std::string error_text(double error) {
+std::string error_over_L_text(double error) {
   return error < 0 ? "×" : scientific(std::max(error, fe_floor_over_L), 1);
 }
 
@@ -43,7 +43,7 @@ std::string fe_convergence_csv(const FeVerification& data) {
   Table table({"rod", "order", "integration", "elements", "tip_error_over_L"});
   for (const FeConvergence& c : data.convergence) {
     table.add({c.rod, std::to_string(c.order), c.full_integration ? "full" : "reduced", std::to_string(c.elements),
-               error_text(c.error_over_L)});
+               error_over_L_text(c.error_over_L)});
   }
   return table.csv({"Against the exact rod. Errors below 1e-11 are written as 1e-11; x: not converged."});
 }
@@ -52,7 +52,7 @@ std::string fe_own_error_csv(const FeVerification& data) {
   Table table({"scene", "tip_error_over_L", "estimate_over_L", "kirchhoff_tip_error_over_L", "load_steps",
                "newton_iterations"});
   for (const FeOwnError& e : data.own_errors) {
-    table.add({e.scene, error_text(e.error_over_L), error_text(e.estimate_over_L), error_text(e.kirchhoff_error_over_L),
+    table.add({e.scene, error_over_L_text(e.error_over_L), error_over_L_text(e.estimate_over_L), error_over_L_text(e.kirchhoff_error_over_L),
                std::to_string(e.load_steps), std::to_string(e.newton_iterations)});
   }
   return table.csv({"50 quadratic elements, reduced integration, against the exact rod of the same model."});
@@ -77,7 +77,7 @@ std::string fe_order_table(const FeVerification& data) {
                                      full ? "full" : "reduced"};
       for (const char* rod : {"thick", "thin"}) {
         cells.push_back(order_text(observed_order(data, rod, order, full)));
-        cells.push_back(error_text(fe_error(data, rod, order, full, fe_coarse)));
+        cells.push_back(error_over_L_text(fe_error(data, rod, order, full, fe_coarse)));
       }
       table.add(cells);
     }

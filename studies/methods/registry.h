@@ -4,7 +4,7 @@
 
 #include "scene/rod_model.h"
 #include "studies/methods/method.h"
-#include "studies/report/style.h"
+#include "studies/report/svg.h"
 
 #include <span>
 

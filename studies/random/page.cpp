@@ -1,7 +1,6 @@
 #include "studies/random/page.h"
 
 #include "studies/random/tables.h"
-#include "studies/report/answers.h"
 #include "studies/report/page.h"
 
 #include <fmt/format.h>

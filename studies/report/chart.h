@@ -1,7 +1,6 @@
 // Panels with axes on an Svg: linear or logarithmic, units in the labels, names beside the curves.
 #pragma once
 
-#include "studies/report/style.h"
 #include "studies/report/svg.h"
 
 namespace studies {

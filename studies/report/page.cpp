@@ -1,6 +1,7 @@
 #include "studies/report/page.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <fstream>
@@ -117,6 +118,15 @@ std::string Page::fill_text(const std::string& words, const std::string& source)
     if (used.count("?" + known) == 0) throw PageError(source + ": {{?" + known + "}} is set but not used");
   }
   return page;
+}
+
+std::string answers_json(const Answers& answers) {
+  return nlohmann::ordered_json(answers).dump(2) + "\n";
+}
+
+Answers read_answers(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return file ? nlohmann::json::parse(file).get<Answers>() : Answers{};
 }
 
 }  // namespace studies

@@ -45,4 +45,15 @@ class Page {
 // A text of timed numbers, marked: in a paragraph, or a table on lines of its own.
 std::string timed(const std::string& text);
 
+// --- Answers ---------------------------------------------------------------------------------------------------------
+// What a study answers, in one line each: written beside its page, read by the index of all results.
+
+// Name to one line of Markdown; timed numbers marked.
+using Answers = std::map<std::string, std::string>;
+
+inline const std::string answers_file = "answers.json";
+
+std::string answers_json(const Answers& answers);
+Answers read_answers(const std::filesystem::path& file);  // empty where there is no such file
+
 }  // namespace studies

@@ -31,4 +31,14 @@ std::string time_text(double time_us);              // three digits in the unit 
 // Numbers as pages write them: a true minus sign, no zeros in front of an exponent. Markdown tables are written so.
 std::string for_reader(const std::string& text);
 
+// Errors below 1e-12 L of a rod of 40 mm are round-off of the references and of the march; files and pictures show this
+// value for them.
+constexpr double error_floor_mm = 4e-11;
+
+std::string error_text(double error_mm, int digits = 2);  // scientific, not below the floor
+std::string error_for_reader(double error_mm);  // two digits: "2.4", "0.033", "2.3e-7"; "–" where not finite
+
+// Observed order between two numbers of arcs; "–" where an error is too near round-off to tell.
+std::string observed_order(int coarse_arcs, double coarse_mm, int fine_arcs, double fine_mm);
+
 }  // namespace studies

@@ -1,7 +1,5 @@
 #include "studies/report/page.h"
 #include "studies/compare/error_measures.h"
-#include "studies/report/answers.h"
-#include "studies/report/error_text.h"
 #include "studies/report/provenance.h"
 #include "studies/report/table.h"
 #include "studies/scenes/cases.h"

@@ -1,5 +1,5 @@
 #include "studies/report/chart.h"
-#include "studies/report/error_text.h"
+#include "studies/report/table.h"
 #include "studies/segmentation/data.h"
 #include "studies/segmentation/printed_trend.h"
 

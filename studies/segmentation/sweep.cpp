@@ -1,7 +1,7 @@
 #include "studies/segmentation/sweep.h"
 
 #include "fam/solve.h"
-#include "studies/report/error_text.h"
+#include "studies/report/table.h"
 #include "studies/scenes/cases.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "studies/compare/verdict.h"
-#include "studies/report/answers.h"
+#include "studies/report/page.h"
 #include "studies/stability/maps.h"
 
 #include <filesystem>

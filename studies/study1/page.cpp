@@ -1,7 +1,6 @@
 #include "studies/study1/page.h"
 
 #include "studies/compare/error_measures.h"
-#include "studies/report/answers.h"
 #include "studies/report/page.h"
 #include "studies/report/provenance.h"
 #include "studies/report/table.h"

@@ -13,7 +13,7 @@ const std::string ours = "Forces of our own (studies/cases/study2/study2*.json);
 // Smaller errors do not matter on half a metre of catheter and are not told apart but in errors_along.csv.
 constexpr double told_mm = 1e-5;
 
-std::string error_text(double error_mm) {
+std::string mm_text(double error_mm) {
   return error_mm < told_mm ? "< 1e-5" : scientific(error_mm, 1);
 }
 
@@ -45,7 +45,7 @@ std::string errors_csv(const Study2Data& data) {
       table.add({r.scene, r.method, r.status, "", "", ""});
       continue;
     }
-    table.add({r.scene, r.method, r.status, error_text(r.errors_mm.back()), error_text(largest_error_mm(r)),
+    table.add({r.scene, r.method, r.status, mm_text(r.errors_mm.back()), mm_text(largest_error_mm(r)),
                fixed(largest_deflection_mm(r), 4)});
   }
   return table.csv(
@@ -82,7 +82,7 @@ std::string errors_table(const Study2Data& data) {
     std::vector<std::string> cells{study2_label(method)};
     for (const std::string& scene : study2_scenes) {
       const Study2Row& r = row(data, scene, method);
-      cells.push_back(r.s_mm.empty() ? r.status : error_text(largest_error_mm(r)));
+      cells.push_back(r.s_mm.empty() ? r.status : mm_text(largest_error_mm(r)));
     }
     table.add(cells);
   }

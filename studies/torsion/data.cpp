@@ -1,6 +1,6 @@
 #include "studies/torsion/data.h"
 
-#include "studies/report/error_text.h"
+#include "studies/report/table.h"
 
 #include <algorithm>
 #include <cmath>

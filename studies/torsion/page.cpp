@@ -1,6 +1,4 @@
 #include "studies/report/page.h"
-#include "studies/report/answers.h"
-#include "studies/report/error_text.h"
 #include "studies/report/provenance.h"
 #include "studies/report/table.h"
 #include "studies/torsion/data.h"

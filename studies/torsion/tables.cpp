@@ -1,4 +1,3 @@
-#include "studies/report/error_text.h"
 #include "studies/report/provenance.h"
 #include "studies/report/table.h"
 #include "studies/torsion/data.h"

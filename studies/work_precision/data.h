@@ -2,7 +2,7 @@
 #pragma once
 
 #include "studies/compare/stopwatch.h"
-#include "studies/report/answers.h"
+#include "studies/report/page.h"
 #include "studies/work_precision/aims.h"
 
 #include <filesystem>
