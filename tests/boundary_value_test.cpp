@@ -39,7 +39,7 @@ scene::Scene tip_force(const scene::Stiffness& stiffness, const Vector3d& force_
   return uniform_rod(length_mm, stiffness, {scene::Force{length_mm, Frame::fixed, force_N}});
 }
 
-// theory.md, section 6, and the fixed 1 N scene: tips by collocation with continuation, independent of this project.
+// Tips by collocation with continuation, independent of this project.
 TEST(BoundaryValue, CheckValues) {
   struct Check {
     scene::Scene scene;

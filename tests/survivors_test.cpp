@@ -1,10 +1,9 @@
 // What the mutants of tests/mutants.txt once survived: facts of scenes, guards and estimates of the three methods. Each
 // number is a closed form or follows from one scene by a rotation; where it is written out its origin stands beside it.
 #include "exact_reference/solve.h"
+#include "fam/load_length.h"
 #include "fam/model_choice.h"
-#include "fam/reach.h"
 #include "fam/solve.h"
-#include "fam/span_stiffness.h"
 #include "fem_reference/solve.h"
 #include "scene/span_facts.h"
 #include "studies/scenes/random_scene.h"
@@ -469,7 +468,8 @@ TEST(SurvivorsFam, FirstArcs) {
   EXPECT_EQ(fam::first_arcs(spans(coil), true), std::vector<int>{10});
   coil.loads.clear();
   EXPECT_EQ(fam::first_arcs(spans(coil), true), std::vector<int>{1});
-  // A moment of 10 in space, compliances 1/4, 1/2, 1: growth 10 sqrt(1/4 1/2) 10 = 35.4 over first_growth = 1.5.
+  // A moment of 10 in space, compliances 1/4, 1/2, 1: load length 10 sqrt(1/4 1/2) 10 = 35.4 over first_load_length
+  // = 1.5.
   scene::Stiffness uneven = slender(2, 1);
   uneven.bending_Nmm2[1] = 4;
   const auto twisted = spans(uniform_rod(10, uneven, {Moment{10, Frame::follower, {10, 0, 0}}}));
@@ -489,9 +489,12 @@ TEST(SurvivorsFam, SwingOfAMoment) {
   const double M = 0.03;
   fam::Arc arc;
   arc.screw.rotation = Vector3d(0, 10 * M, 0);
-  EXPECT_NEAR(fam::largest_reach_rad(rod, std::vector<int>{1}, std::vector<fam::Arc>{arc}, false),
+  EXPECT_NEAR(fam::largest_swing_rad<3>(rod, std::vector<int>{1}, std::vector<fam::Arc>{arc}),
               std::sqrt(0.9 * 9) * 10 * M, 1e-12);
-  EXPECT_NEAR(fam::largest_reach_rad(rod, std::vector<int>{1}, std::vector<fam::Arc>{arc}, true), 10 * M, 1e-12);
+  fam::BasicArc<2> planar;
+  planar.screw.rotation[0] = 10 * M;
+  EXPECT_NEAR(fam::largest_swing_rad<2>(rod, std::vector<int>{1}, std::vector<fam::BasicArc<2>>{planar}), 10 * M,
+              1e-12);
 }
 
 TEST(SurvivorsFam, LeverArmsAreMoments) {  // |F| |r| = 3 2, summed over the couple
@@ -514,7 +517,7 @@ TEST(SurvivorsFam, TwistOfTwoRoundSections) {
   }
 }
 
-// solve.h: both estimates contain the round-off 4 eps L sqrt(N), where two runs agree to the last digit, too.
+// tolerance.h: both estimates contain the round-off 4 eps L sqrt(N), where two runs agree to the last digit, too.
 TEST(SurvivorsFam, RoundOffIsInTheEstimate) {
   const Scene straight = uniform_rod(10, slender(1, 1), {});
   for (const int arcs : {1, 100}) {
@@ -523,7 +526,7 @@ TEST(SurvivorsFam, RoundOffIsInTheEstimate) {
   EXPECT_GE(by_fam(straight, 1e-3).error_estimate_mm, 4 * eps * 10);
 }
 
-// solve.h: no answer by the series beyond resolved_growth, and an estimate of L at least by the other laws.
+// solver.h: no answer by the series beyond longest_load_length, and an estimate of L at least by the other laws.
 TEST(SurvivorsFam, ArcsThatDoNotResolveTheLoad) {
   const Scene scene = uniform_rod(10, slender(1, 1), {Force{10, Frame::follower, {0, 1, 0}}});  // grows by 10
   EXPECT_EQ(by_fam(scene, fam::Law::sixth_order, 1).status, scene::Status::arc_not_converged);
@@ -534,7 +537,7 @@ TEST(SurvivorsFam, ArcsThatDoNotResolveTheLoad) {
   EXPECT_LT(by_fam(scene, fam::Law::fourth_order, 50).error_estimate_mm, 1e-2);
 }
 
-// Nearly round sections under a moment in all directions: each arc must turn by less than resolved_reach_rad = 2.5.
+// Nearly round sections under a moment in all directions: each arc must turn by less than longest_swing_rad = 2.5.
 TEST(SurvivorsFam, ArcsThatTurnFarAreNoAnswer) {
   scene::Stiffness nearly_round = slender(1, 1.01);
   nearly_round.bending_Nmm2[1] = 1.02;
@@ -600,8 +603,8 @@ TEST(SurvivorsFam, TheClampIsNotTurnedRound) {
   EXPECT_LT((found.base().X_BS.rotation_BS - Matrix3d::Identity()).norm(), 1e-6);
 }
 
-// solve.h: with arcs given the estimate is d 2^p/(2^p - 1), d the largest distance from the run with twice the arcs,
-// and here it is larger inside the rod than at its tip.
+// tolerance.h: with arcs given the estimate is d 2^p/(2^p - 1), d the largest distance from the run with twice the
+// arcs, and here it is larger inside the rod than at its tip.
 TEST(SurvivorsFam, EstimateIsThatOfTheWholeShape) {
   Scene scene = uniform_rod(40, slender(750, 500), {Force{20, Frame::follower, {0, 3, 0}}});
   scene.loads.push_back(Force{40, Frame::follower, {0, -0.9, 0}});

@@ -4,6 +4,7 @@
 #include "studies/scenes/cases.h"
 #include "studies/study.h"
 
+#include "scene/load_visitor.h"
 #include "studies/benchmarks/cases.h"
 #include "studies/benchmarks/page.h"
 #include "studies/compare/error_measures.h"
@@ -49,8 +50,12 @@ const BenchmarkFamily& family_of(const Benchmark& benchmark, const std::string& 
 }
 
 double size_of(const scene::Load& load) {
-  if (const auto* force = std::get_if<scene::Force>(&load)) return force->value_N.norm();
-  return std::get<scene::DistributedForce>(load).value_N_per_mm.norm();
+  return scene::visit_load(
+      load, [](const scene::Force& force) { return force.value_N.norm(); },
+      [](const scene::Moment& moment) { return moment.value_Nmm.norm(); },
+      [](const scene::DistributedForce& force) { return force.value_N_per_mm.norm(); },
+      [](const scene::Gravity& gravity) { return gravity.acceleration_m_per_s2.norm(); },
+      [](const scene::Tendon& tendon) { return tendon.tension_N; });
 }
 
 // The load at which `stable` turns from true to false, halved in until it is not decided or the bracket is 1e-11 wide.
@@ -166,11 +171,7 @@ BenchmarkResult run(const Benchmark& benchmark, const StudyOptions& options) {
 }  // namespace
 
 scene::Scene scaled(scene::Scene scene, double factor) {
-  for (scene::Load& load : scene.loads) {
-    if (auto* force = std::get_if<scene::Force>(&load)) force->value_N *= factor;
-    if (auto* moment = std::get_if<scene::Moment>(&load)) moment->value_Nmm *= factor;
-    if (auto* distributed = std::get_if<scene::DistributedForce>(&load)) distributed->value_N_per_mm *= factor;
-  }
+  for (scene::Load& load : scene.loads) load = scene::scaled(load, factor);
   return scene;
 }
 

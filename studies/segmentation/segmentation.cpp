@@ -28,10 +28,7 @@ const std::vector<std::string> laws = {"published", "midpoint", "fourth_order", 
 
 fam::Options march_options(const std::string& law, int arcs) {
   fam::Options options;
-  options.law = law == "published"     ? fam::Law::published
-                : law == "midpoint"    ? fam::Law::midpoint
-                : law == "sixth_order" ? fam::Law::sixth_order
-                                       : fam::Law::fourth_order;
+  options.law = fam::law_named(law).value_or(fam::Law::fourth_order);  // fourth_order_reissner
   options.model = law == "fourth_order_reissner" ? fam::RodModel::reissner : fam::RodModel::kirchhoff;
   options.arcs = arcs;
   options.estimate_error = false;

@@ -4,6 +4,7 @@
 #include "exact_reference/solve.h"
 #include "fam/solve.h"
 #include "fem_reference/solve.h"
+#include "scene/load_visitor.h"
 #include "studies/methods/rk4_method.h"
 #include "studies/stability/planar_march.h"
 
@@ -119,7 +120,7 @@ scene::Equilibrium solve_in_plane(const scene::Scene& scene, int arcs) {
   result.stations = {{length_mm, {Eigen::Matrix3d::Identity(), length_mm * Vector3d(tip[0], tip[1], 0)}}};
   // Second order: the finer march is off by a third of the difference. Arcs too long as in fam::solve.
   result.error_estimate_mm = length_mm * 4 / 3 * std::hypot(tip[0] - finer[0], tip[1] - finer[1]);
-  if (std::sqrt(load) / arcs > fam::resolved_growth) {
+  if (std::sqrt(load) / arcs > fam::longest_load_length) {
     result.error_estimate_mm = std::max(result.error_estimate_mm, length_mm);
   }
   return result;
@@ -248,12 +249,12 @@ scene::Scene cell_scene(const std::string& map, double x, double y) {
 }
 
 std::vector<Contender> contenders() {
-  const auto fam_law = [](const std::string& name, fam::Law law) {
-    return Contender{
-        name, 256, 16, INFINITY, "--method fam --law " + name + " --arcs ", [law](const scene::Scene& scene, int arcs) {
-          return solve_fam(scene, law, arcs);
-        }};
-  };
+  std::vector<Contender> contenders;
+  for (const fam::Law law : fam::all_laws()) {
+    const std::string name = fam::name(law);
+    contenders.push_back({name, 256, 16, INFINITY, "--method fam --law " + name + " --arcs ",
+                          [law](const scene::Scene& scene, int arcs) { return solve_fam(scene, law, arcs); }});
+  }
   const auto fem = [](const std::string& name, int order) {
     return Contender{name,
                      16,
@@ -262,24 +263,23 @@ std::vector<Contender> contenders() {
                      "--method fem --order " + std::to_string(order) + " --elements ",
                      [order](const scene::Scene& scene, int elements) { return solve_fem(scene, order, elements); }};
   };
-  return {fam_law("published", fam::Law::published),
-          fam_law("midpoint", fam::Law::midpoint),
-          fam_law("fourth_order", fam::Law::fourth_order),
-          fam_law("sixth_order", fam::Law::sixth_order),
-          {"fam automatic", 0, 0, INFINITY, "--method fam --tolerance-mm 0.01",
-           [](const scene::Scene& scene, int) { return solve_fam(scene, fam::Law::automatic, 0); }},
-          fem("fem linear", 1),
-          fem("fem quadratic", 2),
-          {"rk4 shooting", 256, 16, INFINITY, "--method rk4 --steps ",
-           [](const scene::Scene& scene, int steps) {
-             return rk4_method({steps, true})->solve(scene);
-           }},
-          {"exact", 0, 0, INFINITY, "--method exact",
-           [](const scene::Scene& scene, int) {
-             return exact_reference::solve(scene, {exact_reference::RodModel::reissner, 1e-9});
-           }},
-          {"midpoint in double precision", 65536, 0, INFINITY, "", solve_in_plane<double>, "precision"},
-          {"midpoint in single precision", 65536, 0, INFINITY, "", solve_in_plane<float>, "precision"}};
+  const std::vector<Contender> others = {
+      {"fam automatic", 0, 0, INFINITY, "--method fam --tolerance-mm 0.01",
+       [](const scene::Scene& scene, int) { return solve_fam(scene, fam::Law::automatic, 0); }},
+      fem("fem linear", 1),
+      fem("fem quadratic", 2),
+      {"rk4 shooting", 256, 16, INFINITY, "--method rk4 --steps ",
+       [](const scene::Scene& scene, int steps) {
+         return rk4_method({steps, true})->solve(scene);
+       }},
+      {"exact", 0, 0, INFINITY, "--method exact",
+       [](const scene::Scene& scene, int) {
+         return exact_reference::solve(scene, {exact_reference::RodModel::reissner, 1e-9});
+       }},
+      {"midpoint in double precision", 65536, 0, INFINITY, "", solve_in_plane<double>, "precision"},
+      {"midpoint in single precision", 65536, 0, INFINITY, "", solve_in_plane<float>, "precision"}};
+  contenders.insert(contenders.end(), others.begin(), others.end());
+  return contenders;
 }
 
 std::optional<scene::Scene> turned_to_follower(const scene::Scene& scene, const scene::Equilibrium& equilibrium) {
@@ -287,16 +287,20 @@ std::optional<scene::Scene> turned_to_follower(const scene::Scene& scene, const 
   const double tip_mm = scene::length_mm(scene);
   scene::Scene turned = scene;
   for (scene::Load& load : turned.loads) {
-    if (std::holds_alternative<scene::Gravity>(load)) return {};
-    if (auto* d = std::get_if<scene::DistributedForce>(&load); d && d->frame == scene::Frame::fixed) return {};
-    if (auto* f = std::get_if<scene::Force>(&load); f && f->frame == scene::Frame::fixed) {
-      if (f->at_mm < tip_mm) return {};
-      *f = {f->at_mm, scene::Frame::follower, tip_BS.transpose() * f->value_N};
-    }
-    if (auto* m = std::get_if<scene::Moment>(&load); m && m->frame == scene::Frame::fixed) {
-      if (m->at_mm < tip_mm) return {};
-      *m = {m->at_mm, scene::Frame::follower, tip_BS.transpose() * m->value_Nmm};
-    }
+    const auto turn = [&](auto& tip_load, auto& value) {
+      if (tip_load.frame == scene::Frame::follower) return true;
+      if (tip_load.at_mm < tip_mm) return false;
+      value = (tip_BS.transpose() * value).eval();
+      tip_load.frame = scene::Frame::follower;
+      return true;
+    };
+    const bool possible = scene::visit_load(
+        load, [&](scene::Force& force) { return turn(force, force.value_N); },
+        [&](scene::Moment& moment) { return turn(moment, moment.value_Nmm); },
+        [](scene::DistributedForce& force) { return force.frame == scene::Frame::follower; },
+        [](scene::Gravity&) { return false; },  //
+        [](scene::Tendon&) { return true; });
+    if (!possible) return {};
   }
   return turned;
 }

@@ -3,6 +3,7 @@
 #include "studies/scenes/cases.h"
 #include "studies/study.h"
 
+#include "scene/load_visitor.h"
 #include "studies/compare/error_measures.h"
 #include "studies/methods/exact_method.h"
 #include "studies/methods/fam_method.h"
@@ -31,14 +32,17 @@ fam::Options published(int arcs) {
 // section at its place, read off a solution. The forces stand at stations of the solution.
 scene::Scene in_section_frames(scene::Scene scene, const scene::Equilibrium& solution) {
   for (scene::Load& load : scene.loads) {
-    auto* force = std::get_if<scene::Force>(&load);
-    if (!force) continue;
-    for (const scene::Station& station : solution.stations) {
-      if (std::abs(station.s_mm - force->at_mm) > 1e-9 * force->at_mm) continue;
-      force->value_N = station.X_BS.rotation_BS.transpose() * force->value_N;
-      force->frame = scene::Frame::follower;
-      break;
-    }
+    const auto turn = [&](scene::Force& force) {
+      for (const scene::Station& station : solution.stations) {
+        if (std::abs(station.s_mm - force.at_mm) > 1e-9 * force.at_mm) continue;
+        force.value_N = station.X_BS.rotation_BS.transpose() * force.value_N;
+        force.frame = scene::Frame::follower;
+        break;
+      }
+    };
+    scene::visit_load(
+        load, turn, [](scene::Moment&) {}, [](scene::DistributedForce&) {}, [](scene::Gravity&) {},
+        [](scene::Tendon&) {});
   }
   return scene;
 }

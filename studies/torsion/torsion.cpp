@@ -7,6 +7,7 @@
 #include "exact_reference/solve.h"
 #include "fam/solve.h"
 #include "fem_reference/solve.h"
+#include "scene/load_visitor.h"
 #include "studies/compare/error_measures.h"
 #include "studies/report/output_file.h"
 #include "studies/report/provenance.h"
@@ -28,10 +29,7 @@ const std::vector<double> order_torques_Nmm = {0, 20, 50};
 
 fam::Options arc_options(const std::string& law, int arcs, fam::RodModel model = fam::RodModel::kirchhoff) {
   fam::Options options;
-  options.law = law == "midpoint"       ? fam::Law::midpoint
-                : law == "fourth_order" ? fam::Law::fourth_order
-                : law == "sixth_order"  ? fam::Law::sixth_order
-                                        : fam::Law::published;
+  options.law = fam::law_named(law).value_or(fam::Law::published);  // or a twist order of it
   options.twist_order = law == "twist_bend" ? fam::TwistOrder::twist_bend : fam::TwistOrder::bend_twist;
   options.model = model;
   options.arcs = arcs;
@@ -132,7 +130,7 @@ class Torsion {
     const scene::Stiffness stiffness = scene::stiffness_of(scene.sections[0]);
     Vector3d moment_Nmm = Vector3d::Zero();
     std::erase_if(scene.loads, [&](const scene::Load& load) {
-      const auto* tendon = std::get_if<scene::Tendon>(&load);
+      const scene::Tendon* tendon = scene::tendon_of(load);
       if (tendon) moment_Nmm += tendon->tension_N * Vector3d(0, -tendon->offset_mm[1], tendon->offset_mm[0]);
       return tendon != nullptr;
     });

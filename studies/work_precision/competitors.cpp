@@ -11,10 +11,6 @@
 namespace studies {
 namespace {
 
-// A new law of fam::Law needs its line here.
-const std::vector<fam::Law> laws = {fam::Law::published, fam::Law::midpoint, fam::Law::fourth_order,
-                                    fam::Law::sixth_order};
-
 const std::vector<int> arc_counts = {1, 2, 4, 8, 12, 16, 32, 64, 128, 256, 512};
 const std::vector<int> step_counts = {2, 4, 8, 16, 32, 64, 128, 256, 512};
 
@@ -27,8 +23,8 @@ const char* model_name(bool with_shear) {
 }
 
 void add_fam(std::vector<Competitor>& list, bool with_shear) {
-  for (const fam::Law law : laws) {
-    if (law == fam::Law::published && with_shear) continue;
+  for (const fam::Law law : fam::all_laws()) {
+    if (with_shear && !fam::facts_of(law).coupled) continue;
     for (const int arcs : arc_counts) {
       fam::Options options;
       options.law = law;
