@@ -6,6 +6,7 @@
 #include "studies/compare/error_measures.h"
 #include "studies/scenes/random_scene.h"
 #include "support.h"
+#include "support_fam.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -21,13 +22,8 @@ using scene::Equilibrium;
 using scene::Frame;
 using scene::Scene;
 using support::slender;
+using support::solved;
 using support::uniform_rod;
-
-Equilibrium solved(const Scene& scene, double tolerance_mm) {
-  fam::Options options;
-  options.tolerance_mm = tolerance_mm;
-  return fam::solve(scene, options);
-}
 
 struct Benchmark {
   Scene scene;
