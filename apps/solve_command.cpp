@@ -60,12 +60,9 @@ CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments) {
   solve->add_option("--arcs", options.arcs, "Number of arcs (default: as many as the tolerance takes)")
       ->check(CLI::Range(1, fam::max_arcs))
       ->excludes(tolerance);
-  add_choice<fam::Law>(solve, "--law", options.law, "Arc law (default: auto, which is sixth_order)",
-                       {{"auto", fam::Law::automatic},
-                        {"published", fam::Law::published},
-                        {"midpoint", fam::Law::midpoint},
-                        {"fourth_order", fam::Law::fourth_order},
-                        {"sixth_order", fam::Law::sixth_order}});
+  std::map<std::string, fam::Law> laws{{fam::name(fam::Law::automatic), fam::Law::automatic}};
+  for (const fam::Law law : fam::all_laws()) laws.emplace(fam::name(law), law);
+  add_choice(solve, "--law", options.law, "Arc law (default: auto, which is sixth_order)", laws);
   add_choice<fam::RodModel>(solve, "--model", options.model,
                             "Rod model (default: auto, without shear where it does not matter)",
                             {{"auto", fam::RodModel::automatic},

@@ -16,8 +16,9 @@ if(NOT FUZZ_COMPILER OR NOT FUZZ_COMPILER_WORKS)
   return()
 endif()
 
-set(fuzz_sources ${fuzz_folder}/scene_file_fuzzer.cpp ${CMAKE_SOURCE_DIR}/scene/scene_file.cpp
-                 ${CMAKE_SOURCE_DIR}/scene/scene.cpp ${CMAKE_SOURCE_DIR}/scene/section.cpp ${CMAKE_SOURCE_DIR}/scene/span.cpp)
+file(GLOB fuzz_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/scene/*.cpp)
+list(FILTER fuzz_sources EXCLUDE REGEX "/equilibrium_file.cpp$")
+list(PREPEND fuzz_sources ${fuzz_folder}/scene_file_fuzzer.cpp)
 file(GLOB fuzz_headers CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/scene/*.h)
 get_target_property(eigen_folder Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
 set(fuzzer ${CMAKE_BINARY_DIR}/bin/scene_file_fuzzer)

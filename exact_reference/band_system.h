@@ -32,9 +32,9 @@ class BandSystem {
 
   // The determinant of the matrix last factorised: its sign, of the pivots and of the row exchanges, and the logarithm
   // of its size.
-  Determinant determinant() const {
+  scene::Determinant determinant() const {
     const sunindextype* exchanged = static_cast<SUNLinearSolverContent_Band>(solver_->content)->pivots;
-    Determinant result;
+    scene::Determinant result;
     for (long k = 0; k < SM_COLUMNS_B(matrix_); ++k) {
       const double pivot = SM_ELEMENT_B(matrix_, k, k);
       result.negative ^= (pivot < 0) ^ (exchanged[k] != k);

@@ -3,6 +3,7 @@
 #include "exact_reference/shooting.h"
 #include "exact_reference/stability.h"
 #include "exact_reference/stations.h"
+#include "scene/branch_watch.h"
 
 #include <Eigen/Geometry>
 
@@ -45,10 +46,8 @@ struct Path {
   bool tendon_collapsed = false;  // in the last iteration
   bool watch_stability = false;   // conservative, and stable so far
   scene::Symmetry symmetry = scene::Symmetry::none;
-  double load_size = 0;          // of ScaledRod
-  Determinant determinant = {};  // of the equations' derivatives at y
-  double last_load = 0;          // one step before
-  Determinant last_determinant = {};
+  double load_size = 0;            // of ScaledRod
+  scene::BranchWatch branch = {};  // by the determinant of the equations' derivatives
 
   Convergence newton(NodeStates& states, double load_factor, double tolerance, int max_iterations) {
     const Convergence result = shooting.newton(states, load_factor, tolerance, max_iterations);
@@ -72,23 +71,13 @@ bool watches_determinant(const Path& path) {
   return path.symmetry != scene::Symmetry::axis;
 }
 
-// The longest step that the determinant allows: not on to where it vanishes by the line through the last two, for
-// beyond it the sign may be the old one again, where two branches part or two roots lie together.
-double longest_step(const Path& path) {
-  if (!watches_determinant(path)) return HUGE_VAL;
-  const double fall =
-      std::expm1(path.last_determinant.log_size - path.determinant.log_size) / (path.load - path.last_load);
-  return fall > 0 ? 0.8 / fall : HUGE_VAL;
-}
-
 // The determinant a little before the first load, so that the first step has two to go by.
 void look_back(Path& path) {
   const double little = 0.01 / std::max(path.load_size, 1.0);
   NodeStates y = path.y;
   path.newton(y, -little, 1e-8, 8);
-  path.last_load = -little;
-  path.last_determinant = path.shooting.determinant(y, -little);
-  path.determinant = path.shooting.determinant(path.y, 0);
+  path.branch.keep(-little, path.shooting.determinant(y, -little));
+  path.branch.keep(0, path.shooting.determinant(path.y, 0));
 }
 
 // Predicts, corrects, judges one step from the state that the tangent belongs to; leaves the path as it was if it is
@@ -102,16 +91,15 @@ double try_step(Path& path, const std::vector<Core>& tangent, double step) {
   const double miss = largest_turn(corrected, predicted);
   const bool jumped = !(miss <= largest_miss_rad) || !(largest_turn(corrected, path.y) <= largest_turn_rad);
   if (!newton.converged || jumped) return HUGE_VAL;
-  Determinant determinant;
+  scene::Determinant determinant;
   if (watches_determinant(path)) determinant = path.shooting.determinant(corrected, path.load + step);
-  if (determinant.negative != path.determinant.negative) return HUGE_VAL;
+  if (path.branch.has_left(determinant)) return HUGE_VAL;
   if (path.watch_stability && falling_directions(path.shooting, corrected, path.load + step).value_or(0) > 0) {
     if (step > smallest_bifurcation_step) return HUGE_VAL;
     path.watch_stability = false;
   }
   path.y = std::move(corrected);
-  path.last_load = path.load;
-  path.last_determinant = std::exchange(path.determinant, determinant);
+  path.branch.keep(path.load + step, determinant);
   return miss;
 }
 
@@ -145,7 +133,7 @@ bool follow_load(Path& path) {
       step = first_step = std::min(1 / std::max(path.load_size, 1.0), first_turn_rad / std::max(slope, first_turn_rad));
       if (!(first_step > 0)) return false;  // a load or a slope overflows
     }
-    step = std::min(step, longest_step(path));
+    step = std::min(step, path.branch.longest_step(path.load));
     double miss = HUGE_VAL;
     for (;;) {
       const bool to_the_end = path.load + 1.01 * step >= 1;

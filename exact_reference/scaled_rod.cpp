@@ -1,5 +1,7 @@
 #include "exact_reference/scaled_rod.h"
 
+#include "scene/load_visitor.h"
+
 #include <algorithm>
 
 namespace exact_reference {
@@ -48,7 +50,7 @@ void turn_into_xy(ScaledRod& rod, const Eigen::Vector2d& direction) {
 
 void set_tendon_paths(ScaledRod& rod, const scene::Scene& scene) {
   for (const scene::Load& load : scene.loads) {
-    const auto* tendon = std::get_if<scene::Tendon>(&load);
+    const scene::Tendon* tendon = scene::tendon_of(load);
     if (tendon == nullptr) continue;
     const Vector3d arm_S = Vector3d(0, tendon->offset_mm[0], tendon->offset_mm[1]) / rod.length_mm;
     const auto known = std::find(rod.tendon_arms_S.begin(), rod.tendon_arms_S.end(), arm_S);

@@ -206,7 +206,7 @@ std::vector<Core> Shooting::tangent(const NodeStates& y, double load_factor) {
   return result;
 }
 
-Determinant Shooting::determinant(const NodeStates& y, double load_factor) const {
+scene::Determinant Shooting::determinant(const NodeStates& y, double load_factor) const {
   std::span<const int> components = all_components;
   if (rod_.symmetry == scene::Symmetry::plane_xy) components = components_in_xy;
   if (rod_.symmetry == scene::Symmetry::plane_xz) components = components_in_xz;

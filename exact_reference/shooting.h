@@ -4,6 +4,7 @@
 #pragma once
 
 #include "exact_reference/runge_kutta.h"
+#include "scene/branch_watch.h"
 
 #include <memory>
 #include <span>
@@ -29,11 +30,6 @@ struct Convergence {
   bool tendon_collapsed = false;  // given up because a tendon's path has no length somewhere
   int iterations = 0;
   double last_update = 0;  // largest change of a component; rotations in half radians, wrenches relative to the largest
-};
-
-struct Determinant {
-  double log_size = 0;
-  bool negative = false;
 };
 
 class BandSystem;
@@ -65,7 +61,7 @@ class Shooting {
 
   // Of the equations' derivatives, as they act on motions in the plane of the rod's symmetry if there is one. It does
   // not depend on the mesh; its sign differs from one branch to the next.
-  Determinant determinant(const NodeStates& y, double load_factor) const;
+  scene::Determinant determinant(const NodeStates& y, double load_factor) const;
 
   // Sets the positions, which Newton's unknowns do not hold.
   void integrate_positions(NodeStates& y, double load_factor) const;

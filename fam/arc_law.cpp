@@ -1,126 +1,50 @@
 #include "fam/arc_law.h"
 
-#include "fam/span_stiffness.h"
+#include <array>
 
 namespace fam {
 namespace {
 
-// dPi/dtheta / 2 and its Gauss-Newton slope. The Bezier curve makes the moment along the arc a Bernstein sum
-// M(sigma) = moment + B0 q0 + B1 q1 + B2 q2 with q_i = (P3 - P_i) x F, so the integrals are those of Bernstein
-// polynomials: int B_i = 1/4, int B_i B_j = binom(3,i) binom(3,j) / (7 binom(6,i+j)).
-struct Residual {
-  double value, slope;
-};
-
-Residual moment_residual(const PlaneLoad& load, double angle) {
-  const ScrewCoefficients k = screw_coefficients(angle * angle);
-  const double sine = k.A * angle;
-  const double cosine = 1 - k.B * angle * angle;
-  const TangentRatio ratio = tangent_ratio(angle / 4);
-  const double a = ratio.value / 3;  // length of the Bezier handles
-  const double a_slope = ratio.derivative / 12;
-  const double turned_normal = load.axial * sine + load.normal * cosine;  // force turned with the arc
-  const double turned_normal_slope = load.axial * cosine - load.normal * sine;
-
-  const double q0 = k.A * load.normal + k.B * angle * load.axial;
-  const double q1 = q0 - a * turned_normal;
-  const double q2 = a * load.normal;
-  const double r0 = angle * (k.C - k.B) * load.normal + (k.A - k.B) * load.axial;  // dq0/dtheta
-  const double r1 = r0 - a_slope * turned_normal - a * turned_normal_slope;
-  const double r2 = a_slope * load.normal;
-
-  const auto gram = [](double x0, double x1, double x2, double y0, double y1, double y2) {
-    return x0 * (y0 / 7 + y1 / 14 + y2 / 35) + x1 * (y0 / 14 + y1 * (3 / 35.) + y2 * (9 / 140.)) +
-           x2 * (y0 / 35 + y1 * (9 / 140.) + y2 * (3 / 35.));
-  };
-  const double mean_slope = (r0 + r1 + r2) / 4;
-  const double constant = angle - load.moment;
-  return {constant * (1 - mean_slope) - (q0 + q1 + q2) / 4 + gram(q0, q1, q2, r0, r1, r2),
-          1 - 2 * mean_slope + gram(r0, r1, r2, r0, r1, r2)};
+template <class... Laws>
+constexpr std::array<LawFacts, sizeof...(Laws)> facts_of_all(LawList<Laws...>) {
+  return {Laws::facts...};
 }
+template <class... Laws>
+constexpr std::array<Law, sizeof...(Laws)> laws_of_all(LawList<Laws...>) {
+  return {Laws::facts.law...};
+}
+
+constexpr auto all_facts = facts_of_all(AllLaws{});
+constexpr auto every_law = laws_of_all(AllLaws{});
+constexpr const char* automatic_name = "auto";
 
 }  // namespace
 
-template <int D>
-BasicArcConstants<D> arc_constants(const scene::Span& span, int arcs, RodModel model, double load_factor) {
-  const scene::Stiffness& stiffness = span.stiffness;
-  const double h = span.length_mm() / arcs;
-  const Vector3d bending_and_torsion(stiffness.torsion_Nmm2, stiffness.bending_Nmm2[0], stiffness.bending_Nmm2[1]);
-
-  BasicArcConstants<D> arc;
-  arc.length_mm = h;
-  arc.angular_compliance = h * turn_in_space_or_plane<D>(bending_and_torsion.cwiseInverse());
-  arc.rest_rotation = h * turn_in_space_or_plane<D>(span.rest_curvature_per_mm);
-  arc.rest_translation_mm[0] = h;
-  if (model == RodModel::reissner) {
-    Vector3d compliance = Vector3d::Zero();
-    if (stiffness.axial_N) compliance[0] = h / *stiffness.axial_N;
-    if (stiffness.shear_N) compliance.tail<2>() = h * stiffness.shear_N->cwiseInverse();
-    arc.linear_compliance = in_space_or_plane<D>(compliance);
-  }
-  set_tendons(arc, span, model, load_factor);
-  return arc;
+std::span<const Law> all_laws() {
+  return every_law;
 }
 
-template <int D>
-void set_tendons(BasicArcConstants<D>& arc, const scene::Span& span, RodModel model, double load_factor) {
-  arc.straight_tendons = D == 2 && model == RodModel::kirchhoff;
-  if (arc.straight_tendons) {
-    arc.rest_rotation =
-        arc.length_mm * turn_in_space_or_plane<D>(span.rest_curvature_per_mm) +
-        load_factor * arc.angular_compliance.cwiseProduct(turn_in_space_or_plane<D>(straight_tendons(span).moment_Nmm));
+const LawFacts& facts_of(Law law) {
+  for (const LawFacts& facts : all_facts) {
+    if (facts.law == law) return facts;
   }
-  arc.tendons.clear();
-  if (load_factor == 0) return;
-  for (const scene::SectionTendon& tendon : span.tendons) {
-    arc.tendons.push_back({in_space_or_plane<D>(tendon.arm_S_mm), load_factor * tendon.tension_N});
-  }
+  return AutomaticLaw::facts;
 }
 
-template BasicArcConstants<2> arc_constants(const scene::Span&, int, RodModel, double);
-template BasicArcConstants<3> arc_constants(const scene::Span&, int, RodModel, double);
-template void set_tendons(BasicArcConstants<2>&, const scene::Span&, RodModel, double);
-template void set_tendons(BasicArcConstants<3>&, const scene::Span&, RodModel, double);
-
-bool published_angle(const PlaneLoad& load, double& angle_rad) {
-  double angle = load.moment + load.normal / 2;  // curvature of the straight arc's mean moment
-  const double scale = std::abs(load.moment) + std::abs(load.normal);
-  Residual last = moment_residual(load, angle);
-  double step = -last.value / last.slope;
-  for (int iteration = 0; iteration < max_angle_steps; ++iteration) {
-    angle += step;
-    if (std::abs(step) <= angle_step_tolerance * (scale + std::abs(angle))) {
-      angle_rad = angle;
-      return true;
-    }
-    const Residual residual = moment_residual(load, angle);
-    const double secant_slope = (residual.value - last.value) / step;
-    const double slope = secant_slope > 0.1 * residual.slope ? secant_slope : residual.slope;
-    last = residual;
-    step = -residual.value / slope;
-  }
-  return false;
+Law chosen(Law law) {
+  return facts_of(law).law;
 }
 
-bool published_arc(const ArcConstants& constants, const SectionWrench& distal, TwistOrder order, Arc& arc) {
-  const double h = constants.length_mm;
-  const Vector3d& F = distal.force_N;
-  // h K^-1 M with the rest curvature and the tendons, in their directions at the distal end, as moments.
-  const Vector3d turn = strain_under<false>(constants, distal).rotation;
-  const double bending_compliance = constants.angular_compliance[1];
+const char* name(Law law) {
+  return law == Law::automatic ? automatic_name : facts_of(law).name;
+}
 
-  // Bending plane on the straight arc: M + h e_x x F without its x component, here times h/EI.
-  const Eigen::Vector2d total(turn[1] - bending_compliance * h * F[2], turn[2] + bending_compliance * h * F[1]);
-  const double norm = total.norm();
-  const Eigen::Vector2d normal = norm > 0 ? Eigen::Vector2d(total / norm) : Eigen::Vector2d(0, 1);
-  const PlaneLoad load{turn[1] * normal[0] + turn[2] * normal[1], bending_compliance * h * F[0],
-                       bending_compliance * h * (F[1] * normal[1] - F[2] * normal[0])};
-  double angle = 0;
-  const bool found = published_angle(load, angle);
-  arc.screw = {angle * Vector3d(0, normal[0], normal[1]), constants.rest_translation_mm};
-  (order == TwistOrder::twist_bend ? arc.twist_before_rad : arc.twist_after_rad) = turn[0];
-  (order == TwistOrder::twist_bend ? arc.twist_after_rad : arc.twist_before_rad) = 0;
-  return found;
+std::optional<Law> law_named(std::string_view name) {
+  if (name == automatic_name) return Law::automatic;
+  for (const LawFacts& facts : all_facts) {
+    if (facts.name == name) return facts.law;
+  }
+  return std::nullopt;
 }
 
 }  // namespace fam

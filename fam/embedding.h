@@ -11,10 +11,10 @@ inline Vector3d embedded(const Vector3d& v) {
 inline Vector3d embedded(const Eigen::Vector2d& v) {
   return {v[0], v[1], 0};
 }
-inline Vector3d embedded_turn(const Vector3d& v) {
+inline Vector3d embedded_angular(const Vector3d& v) {
   return v;
 }
-inline Vector3d embedded_turn(const Turn<double, 2>& turn) {
+inline Vector3d embedded_angular(const Angular<double, 2>& turn) {
   return {0, 0, turn[0]};
 }
 

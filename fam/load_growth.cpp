@@ -1,5 +1,5 @@
-// How a boundary value problem's load grows from zero, and which steps keep to the branch.
-#include "fam/boundary_value.h"
+#include "fam/load_growth.h"
+
 #include "fam/rotation.h"
 #include "scene/span_facts.h"
 
@@ -8,134 +8,162 @@
 #include <sstream>
 
 namespace fam {
+namespace {
+
+constexpr double largest_turn_rad = 0.5;       // of a segment end in a step; chosen, not measured
+constexpr double largest_surprise_rad = 0.05;  // chosen, not measured
+constexpr double smallest_load_step = 1e-12;   // over the load reached: a column pushed aside by 1e-12 EI/L^2 needs it
+constexpr double smallest_bifurcation_step = 1e-5;  // of the load; chosen, not measured
+constexpr double load_step_tolerance = 1e-6;        // of Newton on the way to the full load, where the last is tighter
+constexpr int most_passes = 100;                    // of the rod's arcs, within the work limit; chosen, not measured
+
+template <int D>
+double turn_between(const SectionState<D>& a, const SectionState<D>& b) {
+  return rotation_vector(Eigen::Matrix<double, D, D>(a.rotation_SB * b.rotation_SB.transpose())).norm();
+}
+
+}  // namespace
+
+template <int D>
+LoadGrowth<D>::LoadGrowth(const Shooting<D>& shooting)
+    : start_(shooting.nodes().size()), guess_(shooting.nodes().size()), previous_(shooting.nodes().size()) {
+  if (!shooting.one_equilibrium() && scene::is_conservative(shooting.rod().spans())) {
+    judge_.emplace(shooting.rod(), shooting.nodes().size());
+  }
+}
 
 // Where the last two loads point: rotations along their relative turn, wrenches along their difference.
 template <int D>
-std::vector<typename BasicBoundaryValue<D>::template State<double>> BasicBoundaryValue<D>::predict(
-    double factor) const {
-  std::vector<State<double>> guess = nodes_;
-  if (load_steps_ == 0) return guess;
-  const double ahead = (factor - factor_) / (factor_ - previous_factor_);
-  for (std::size_t k = 0; k < guess.size(); ++k) {
+void LoadGrowth<D>::predict(const Shooting<D>& shooting, double factor) {
+  const Nodes& nodes = shooting.nodes();
+  guess_ = nodes;
+  if (load_steps_ == 0) return;
+  const double ahead = (factor - load_factor_) / (load_factor_ - previous_factor_);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
     // R_B,new = R_B,now exp(turn): base axes in the section turn back.
-    const Turn<double, D> turn =
-        rotation_vector(Rotation(previous_[k].rotation_SB * nodes_[k].rotation_SB.transpose()));
-    guess[k].rotation_SB = turned(nodes_[k].rotation_SB, Turn<double, D>(ahead * turn));
-    guess[k].wrench.force_N += ahead * (nodes_[k].wrench.force_N - previous_[k].wrench.force_N);
-    guess[k].wrench.moment_Nmm += ahead * (nodes_[k].wrench.moment_Nmm - previous_[k].wrench.moment_Nmm);
+    const Angular<double, D> turn =
+        rotation_vector(Eigen::Matrix<double, D, D>(previous_[k].rotation_SB * nodes[k].rotation_SB.transpose()));
+    guess_[k].rotation_SB = turned(nodes[k].rotation_SB, Angular<double, D>(ahead * turn));
+    guess_[k].wrench.force_N += ahead * (nodes[k].wrench.force_N - previous_[k].wrench.force_N);
+    guess_[k].wrench.moment_Nmm += ahead * (nodes[k].wrench.moment_Nmm - previous_[k].wrench.moment_Nmm);
   }
-  return guess;
-}
-
-// Not on to where the determinant vanishes by the line through the last two.
-template <int D>
-double BasicBoundaryValue<D>::longest_step(const BranchWatch& watch) const {
-  if (!watch.determinant || watch.before.factor == watch.last.factor) return 1;
-  const double fall =
-      std::expm1(watch.before.log_size - watch.last.log_size) / (watch.last.factor - watch.before.factor);
-  return fall > 0 ? 0.8 / fall : 1;
 }
 
 // One load step, taken or undone. Returns the surprise, the largest rotation that was not predicted, in units of what
 // is allowed; empty if refused.
 template <int D>
-std::optional<double> BasicBoundaryValue<D>::try_step(double to, BranchWatch& watch) {
-  const double from = factor_;
-  const std::vector<State<double>> start = nodes_;
-  const std::vector<State<double>> guess = predict(to);
-  nodes_ = guess;
-  set_load(to);
-  bool accepted = newton(to < 1 ? std::max(newton_tolerance_, load_step_tolerance) : newton_tolerance_);
+std::optional<double> LoadGrowth<D>::try_step(Shooting<D>& shooting, double to) {
+  start_ = shooting.nodes();
+  predict(shooting, to);
+  shooting.set_nodes(guess_);
+  shooting.set_load(to);
+  const double tolerance = shooting.newton_tolerance();
+  bool accepted = shooting.newton(to < 1 ? std::max(tolerance, load_step_tolerance) : tolerance);
   double turn = 0;
   double surprise = 0;
-  for (std::size_t k = 0; accepted && k < nodes_.size(); ++k) {
-    turn = std::max(turn, rotation_vector(Rotation(nodes_[k].rotation_SB * start[k].rotation_SB.transpose())).norm());
-    surprise =
-        std::max(surprise, rotation_vector(Rotation(nodes_[k].rotation_SB * guess[k].rotation_SB.transpose())).norm());
+  for (std::size_t k = 0; accepted && k < start_.size(); ++k) {
+    turn = std::max(turn, turn_between(shooting.nodes()[k], start_[k]));
+    surprise = std::max(surprise, turn_between(shooting.nodes()[k], guess_[k]));
   }
   surprise /= load_steps_ == 0 ? largest_turn_rad / 2 : largest_surprise_rad;
   accepted = accepted && turn <= largest_turn_rad && surprise <= 1;
-  if (accepted && stays_on_branch(to - from, watch)) {
-    previous_ = start;
-    previous_factor_ = from;
+  if (accepted && stays_on_branch(shooting, to - load_factor_)) {
+    previous_ = start_;
+    previous_factor_ = load_factor_;
+    load_factor_ = to;
     ++load_steps_;
     return surprise;
   }
-  nodes_ = start;
-  set_load(from);
+  shooting.set_nodes(start_);
+  shooting.set_load(load_factor_);
   return std::nullopt;
 }
 
 // Judges the solution that a step of this length has led to, and remembers it if it is on the branch.
 template <int D>
-bool BasicBoundaryValue<D>::stays_on_branch(double step, BranchWatch& watch) {
-  Orientation now = orientation(false);
+bool LoadGrowth<D>::stays_on_branch(Shooting<D>& shooting, double step) {
+  scene::Determinant now = shooting.determinant(false);
   // Secants mend the derivatives of one segment well enough as long as the determinant does not fall.
-  const double size = (now.negative == watch.last.negative ? 1 : -1) * std::exp(now.log_size - watch.last.log_size);
-  if (!(size > 0.8)) now = orientation(true);
-  if (watch.determinant && now.negative != watch.last.negative) return false;
-  const bool falls = watch.stability && stability().conjugate_points > 0;
-  if (falls && !(watch.may_fall && step <= smallest_bifurcation_step)) return false;
-  watch.stability = watch.stability && !falls;
-  watch.before = watch.last;
-  watch.last = now;
+  const scene::Determinant& last = branch_.last();
+  const double size = (now.negative == last.negative ? 1 : -1) * std::exp(now.log_size - last.log_size);
+  if (!(size > 0.8)) now = shooting.determinant(true);
+  if (watches_determinant_ && branch_.has_left(now)) return false;
+  const bool falls =
+      watches_stability_ && (*judge_)(shooting.rod(), shooting.segments(), shooting.nodes()).conjugate_points > 0;
+  if (falls && !(may_fall_ && step <= smallest_bifurcation_step)) return false;
+  watches_stability_ = watches_stability_ && !falls;
+  branch_.keep(shooting.rod().load_factor(), now);
   return true;
 }
 
-// Whether load steps this short, or the work done, are the end of it; failure_ and message_ say so.
+// Whether load steps this short, or the work done, are the end of it.
 template <int D>
-bool BasicBoundaryValue<D>::gives_up(double step) {
-  const long long marched = static_cast<long long>(newton_steps_) * arc_count();
-  const bool exhausted =
-      newton_steps_ > most_newton_steps ||
-      marched > std::max<long long>(most_arcs_marched, static_cast<long long>(growth_passes) * arc_count());
-  const double smallest = smallest_load_step * std::max(factor_, first_step_);
+bool LoadGrowth<D>::gives_up(const Shooting<D>& shooting, double step) {
+  const long long arcs = shooting.rod().arc_count();
+  const bool exhausted = shooting.newton_steps() > most_newton_steps ||
+                         shooting.newton_steps() * arcs > std::max(most_arcs_marched, most_passes * arcs);
+  const double smallest = smallest_load_step * std::max(load_factor_, first_step_);
   if (!exhausted && step >= smallest) return false;
-  failure_ = tendon_collapsed_ ? scene::Status::tendon_collapsed
-             : exhausted       ? scene::Status::work_limit
-                               : scene::Status::load_step_too_small;
-  std::ostringstream text;
-  if (exhausted) text << "work limit: " << newton_steps_ << " Newton steps and only ";
-  else text << "the load step fell below " << smallest << " at ";
-  text << 100 * factor_ << " % of the load" << (exhausted ? " reached" : "");
-  message_ = text.str();
+  end_.status = shooting.rod().tendon_collapsed() ? scene::Status::tendon_collapsed
+                : exhausted                       ? scene::Status::work_limit
+                                                  : scene::Status::load_step_too_small;
+  end_.smallest_step = smallest;
+  end_.newton_steps = exhausted ? shooting.newton_steps() : 0;
   return true;
 }
 
 template <int D>
-bool BasicBoundaryValue<D>::grow_load() {
-  if (one_equilibrium() && solve_at_once()) return true;
-  start_unloaded();
-  load_steps_ = 0;
-  if (!newton(newton_tolerance_)) {
-    failure_ = scene::Status::not_converged;
-    message_ = "Newton did not converge at no load";
-    return false;
-  }
-  const scene::Symmetry symmetry = scene::symmetry_of(spans_);
-  BranchWatch watch{symmetry != scene::Symmetry::axis,
-                    scene::is_conservative(spans_),
-                    symmetry != scene::Symmetry::none,
-                    orientation(false),
-                    {}};
-  watch.before = watch.last;
-  first_step_ = 1 / std::max(1.0, total_growth_ * total_growth_ + total_turn_rad_);
-  double step = first_step_;
-  while (factor_ < 1) {
-    step = std::min(step, longest_step(watch));
-    if (gives_up(step)) return false;
-    const double from = factor_;
-    const double to = 1 - from <= 1.001 * step ? 1 : from + step;
-    if (const std::optional<double> surprise = try_step(to, watch)) {
-      step *= *surprise < 0.25 ? 2 : 1.2;
-    } else {
-      step = (to - from) / 2;
-    }
-  }
-  return true;
+std::string LoadGrowth<D>::message() const {
+  if (end_.status == scene::Status::not_converged) return "Newton did not converge at no load";
+  std::ostringstream text;
+  if (end_.newton_steps > 0) text << "work limit: " << end_.newton_steps << " Newton steps and only ";
+  else text << "the load step fell below " << end_.smallest_step << " at ";
+  text << 100 * load_factor_ << " % of the load" << (end_.newton_steps > 0 ? " reached" : "");
+  return text.str();
 }
 
-template bool BasicBoundaryValue<2>::grow_load();
-template bool BasicBoundaryValue<3>::grow_load();
+template <int D>
+void LoadGrowth<D>::start_watch(const Shooting<D>& shooting) {
+  const std::vector<scene::Span>& spans = shooting.rod().spans();
+  const scene::Symmetry symmetry = scene::symmetry_of(spans);
+  watches_determinant_ = symmetry != scene::Symmetry::axis;
+  watches_stability_ = scene::is_conservative(spans);
+  may_fall_ = symmetry != scene::Symmetry::none;
+  if (watches_stability_ && !judge_) judge_.emplace(shooting.rod(), shooting.nodes().size());
+  branch_ = {};
+  branch_.keep(0, shooting.determinant(false));
+}
+
+template <int D>
+scene::Status LoadGrowth<D>::run(Shooting<D>& shooting) {
+  end_ = {};
+  load_steps_ = 1;
+  if (shooting.one_equilibrium() && shooting.solve_at_once()) return scene::Status::converged;
+  return grow(shooting);
+}
+
+template <int D>
+scene::Status LoadGrowth<D>::grow(Shooting<D>& shooting) {
+  load_steps_ = 0;
+  load_factor_ = previous_factor_ = 0;
+  shooting.start_unloaded();
+  if (!shooting.newton(shooting.newton_tolerance())) return end_.status = scene::Status::not_converged;
+  start_watch(shooting);
+  const LoadBounds& bounds = shooting.bounds();
+  first_step_ = 1 / std::max(1.0, bounds.load_length * bounds.load_length + bounds.turn_rad);
+  double step = first_step_;
+  while (load_factor_ < 1) {
+    if (watches_determinant_) step = std::min(step, branch_.longest_step(load_factor_));
+    if (gives_up(shooting, step)) return end_.status;
+    const double from = load_factor_;
+    const double to = 1 - from <= 1.001 * step ? 1 : from + step;
+    if (const std::optional<double> surprise = try_step(shooting, to)) step *= *surprise < 0.25 ? 2 : 1.2;
+    else step = (to - from) / 2;
+  }
+  return scene::Status::converged;
+}
+
+template class LoadGrowth<2>;
+template class LoadGrowth<3>;
 
 }  // namespace fam

@@ -23,8 +23,8 @@ template <int D>
 BasicMarch<D>::BasicMarch(std::span<const scene::Span> spans, std::span<const int> arcs_per_span, Law law,
                           RodModel model, TwistOrder twist_order)
     : law_(law), model_(model), twist_order_(twist_order) {
-  assert(spans.size() == arcs_per_span.size() && law != Law::automatic && model != RodModel::automatic);
-  assert(D == 3 || law != Law::published);
+  assert(spans.size() == arcs_per_span.size() && chosen(law) == law && model != RodModel::automatic);
+  assert(D == 3 || facts_of(law).coupled);
   int first_arc = 0;
   spans_.reserve(spans.size());
   for (std::size_t i = 0; i < spans.size(); ++i) {
@@ -59,36 +59,21 @@ void for_arcs(const Span& span, Wrench& wrench, std::vector<Wrench>& record, Ste
 }
 
 template <int D>
-template <bool with_shear>
+template <class CoupledLaw, bool with_shear>
 FAM_FLATTEN void BasicMarch<D>::run_law() {
-  const auto with = [&](auto&& law) {
-    march([&](const SpanArcs<D>& span, auto& wrench) {
-      const ArcForces<double, D> follower{span.follower_force_S_N, Vector<double, D>::Zero()};
-      const ArcForces<double, D>* forces = span.distributed ? &follower : nullptr;
-      if (!span.constants.is_elastic()) {
-        for_arcs(span, wrench, distal_wrenches_S_, [&](std::size_t arc, auto& w) {
-          motions_[arc] = tendon_step<with_shear>(law_, span.constants, forces, w, arcs_[arc].screw, tendon_collapsed_);
-        });
-        return;
-      }
-      const ElasticSection<with_shear, double, D> section(span.constants);
-      for_arcs(span, wrench, distal_wrenches_S_,
-               [&](std::size_t arc, auto& w) { motions_[arc] = law(section, forces, w, arcs_[arc].screw); });
-    });
-  };
-  if (law_ == Law::midpoint) {
-    with([](auto& section, auto forces, auto& wrench, auto& screw) {
-      return midpoint_step(section, forces, wrench, screw);
-    });
-  } else if (law_ == Law::fourth_order) {
-    with([](auto& section, auto forces, auto& wrench, auto& screw) {
-      return fourth_order_step(section, forces, wrench, screw);
-    });
-  } else {
-    with([](auto& section, auto forces, auto& wrench, auto& screw) {
-      return sixth_order_step(section, forces, wrench, screw);
-    });
-  }
+  march([&](const SpanArcs<D>& span, auto& wrench) {
+    const ArcForces<double, D> follower{span.follower_force_S_N, Vector<double, D>::Zero()};
+    const ArcForces<double, D>* forces = span.distributed ? &follower : nullptr;
+    if (!span.constants.is_elastic()) {
+      for_arcs(span, wrench, distal_wrenches_S_, [&](std::size_t arc, auto& w) {
+        motions_[arc] = tendon_step<with_shear>(law_, span.constants, forces, w, arcs_[arc].screw, tendon_collapsed_);
+      });
+      return;
+    }
+    const ElasticSection<with_shear, double, D> section(span.constants);
+    for_arcs(span, wrench, distal_wrenches_S_,
+             [&](std::size_t arc, auto& w) { motions_[arc] = CoupledLaw::step(section, forces, w, arcs_[arc].screw); });
+  });
   place_arcs();
 }
 
@@ -100,7 +85,7 @@ void BasicMarch<D>::place_arcs() {
 }
 
 template <int D>
-bool BasicMarch<D>::run_published() {
+void BasicMarch<D>::run_published() {
   if constexpr (D == 3) {
     march([this](const SpanArcs<D>& span, SectionWrench& wrench) {
       for_arcs(span, wrench, distal_wrenches_S_, [&](std::size_t k, SectionWrench& w) {
@@ -117,20 +102,18 @@ bool BasicMarch<D>::run_published() {
           poses_[k].then(twist(arcs_[k].twist_before_rad)).then(motions_[k]).then(twist(arcs_[k].twist_after_rad));
     }
   }
-  return failed_arc_ < 0;
 }
 
 template <int D>
 scene::Status BasicMarch<D>::run() noexcept {
   failed_arc_ = -1;
   tendon_collapsed_ = false;
-  if (law_ == Law::published) {
-    if (!run_published()) return scene::Status::arc_not_converged;
-  } else if (model_ == RodModel::reissner) {
-    run_law<true>();
-  } else {
-    run_law<false>();
-  }
+  visit_law(law_, [&](auto law) {
+    if constexpr (!law.facts.coupled) run_published();
+    else if (model_ == RodModel::reissner) run_law<decltype(law), true>();
+    else run_law<decltype(law), false>();
+  });
+  if (failed_arc_ >= 0) return scene::Status::arc_not_converged;
   const BasicPose<D>& tip = poses_.back();
   const bool finite = tip.position_B_mm.allFinite() && tip.rotation_BS.allFinite() &&
                       base_wrench_.force_N.allFinite() && base_wrench_.moment_Nmm.allFinite();

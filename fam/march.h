@@ -2,6 +2,7 @@
 // at its distal end and hands the wrench on. One pass, cost linear in the arcs, no iteration, no heap allocation.
 #pragma once
 
+#include "fam/arc_law.h"
 #include "fam/span_arcs.h"
 
 #include "scene/equilibrium.h"
@@ -24,7 +25,7 @@ struct SolvedRod {
   TwistOrder twist_order = TwistOrder::bend_twist;
 };
 
-// In space, D = 3, or for rods in the x-y plane, D = 2 (spans with nothing out of it; Law::published in space only).
+// In space, D = 3, or for rods in the x-y plane, D = 2 (spans with nothing out of it; coupled laws only).
 template <int D>
 class BasicMarch {
  public:
@@ -48,9 +49,9 @@ class BasicMarch {
  private:
   template <class MarchSpan>
   void march(MarchSpan&& march_span);
-  template <bool with_shear>
+  template <class CoupledLaw, bool with_shear>
   void run_law();
-  bool run_published();
+  void run_published();
   void place_arcs();
 
   std::vector<SpanArcs<D>> spans_;

@@ -1,6 +1,6 @@
 #include "fam/model_choice.h"
 
-#include "fam/span_stiffness.h"
+#include "fam/load_length.h"
 #include "scene/span_facts.h"
 
 #include <algorithm>
@@ -13,24 +13,14 @@ namespace {
 using Eigen::Vector2d;
 using scene::Span;
 
-// Sum of the sizes of the forces on a span and at its end.
-double add_force_N(const Span& span) {
-  return span.follower_load_S.force_N.norm() + span.fixed_load_B.force_N.norm() +
-         span.length_mm() * (span.follower_force_S_N_per_mm.norm() + span.fixed_force_B_N_per_mm.norm());
-}
-
 // A bound on the tip's shift by shear and stretch: the strain |K_v^-1 n| summed along the rod, |n| bounded by the
 // forces beyond. The shift of the tip by the strains themselves; what they change in the moments is of their order.
 double shear_bound_mm(std::span<const Span> spans) {
   double bound = 0;
-  double force = 0;
-  for (auto span = spans.rbegin(); span != spans.rend(); ++span) {
-    force += add_force_N(*span);
-    double compliance = 0;
-    if (span->stiffness.axial_N) compliance = 1 / *span->stiffness.axial_N;
-    if (span->stiffness.shear_N) compliance = std::max(compliance, 1 / span->stiffness.shear_N->minCoeff());
-    bound += span->length_mm() * compliance * (force + straight_tendons(*span).force_N.norm());
-  }
+  walk_from_tip(spans, OneEach{}, [&](const LoadedCell& span) {
+    const double force_N = span.force_N + straight_tendons(span.span).force_N.norm();
+    bound += span.length_mm * linear_compliance_per_N(span.span) * force_N;
+  });
   return 3 * bound;
 }
 
@@ -95,34 +85,38 @@ RodChoice choose_rod(std::span<const Span> spans, RodModel wanted, double tolera
   return {RodModel::reissner, 0, "shear: the sections shear or stretch, and it may matter"};
 }
 
-double largest_growth(std::span<const Span> spans, std::span<const int> arcs_per_span) {
-  double force = 0, largest = 0;
-  for (std::size_t i = spans.size(); i-- > 0;) {
-    force += add_force_N(spans[i]);
-    const double h = spans[i].length_mm() / arcs_per_span[i];
-    largest = std::max(largest, h * std::sqrt(force / least_stiffness_Nmm2(spans[i])));
-  }
-  return largest;
-}
-
 std::vector<int> first_arcs(std::span<const Span> spans, bool planar) {
   std::vector<int> arcs(spans.size(), 1);
-  double force = 0, moment = 0;
-  for (std::size_t i = spans.size(); i-- > 0;) {
-    const Span& span = spans[i];
-    force += add_force_N(span);
-    moment += load_moment_Nmm(span);
-    const double bending_Nmm2 = span.stiffness.bending_Nmm2.minCoeff();
-    const double by_moment = planar ? 0 : moment * moment_growth_per_Nmm2(span);
-    const double growth = span.length_mm() * (std::sqrt(force / least_stiffness_Nmm2(span)) + by_moment);
-    const double turn_rad = span.length_mm() * (span.rest_curvature_per_mm.norm() +
-                                                (moment + straight_tendons(span).moment_Nmm.norm()) / bending_Nmm2);
+  walk_from_tip(spans, OneEach{}, [&](const LoadedCell& cell) {
+    const Span& span = cell.span;
+    const double load_length = cell.load_length(least_stiffness_Nmm2(span), !planar);
+    const double moment_Nmm = cell.moment_Nmm + straight_tendons(span).moment_Nmm.norm();
+    const double turn_rad =
+        cell.length_mm * (span.rest_curvature_per_mm.norm() + moment_Nmm / span.stiffness.bending_Nmm2.minCoeff());
     // Where no force acts the strain is constant, or an Euler top's, and turns matter little.
-    const double by_turn = force > 0 ? turn_rad / first_turn_rad : 0;
-    const double wanted = std::ceil(std::max(growth / first_growth, by_turn));  // NaN where numbers overflow
-    arcs[i] = wanted < most_first_arcs ? std::max(1, static_cast<int>(wanted)) : most_first_arcs;
-  }
+    const double by_turn = cell.force_N > 0 ? turn_rad / first_turn_rad : 0;
+    const double wanted = std::ceil(std::max(load_length / first_load_length, by_turn));  // NaN where numbers overflow
+    arcs[cell.span_index] = wanted < most_first_arcs ? std::max(1, static_cast<int>(wanted)) : most_first_arcs;
+  });
   return arcs;
+}
+
+Choice choose(std::span<const Span> spans, const Options& options, double tolerance_mm) {
+  Choice choice;
+  choice.law = chosen(options.law);
+  const bool coupled = facts_of(choice.law).coupled;
+  if (coupled) choice.plane = in_one_plane(spans);
+  if (coupled && !choice.plane) choice.round = without_torsion(spans);
+  const bool needs_kirchhoff = options.model == RodModel::automatic && !coupled;
+  choice.rod =
+      choose_rod(spans, needs_kirchhoff ? RodModel::kirchhoff : options.model, options.arcs == 0 ? tolerance_mm : 0);
+  choice.march = scene::all_loads_follow(spans);
+  choice.reason = (choice.plane ? "planar: all loads and rest curvatures lie in one plane; " : "spatial; ") +
+                  choice.rod.reason + "; " +
+                  (options.law != choice.law ? "sixth_order: an arc costs no more than a fourth_order one and fewer do"
+                                             : "law as asked for") +
+                  (choice.march ? "; march: all loads follow the rod" : "; boundary value: a load is fixed in space");
+  return choice;
 }
 
 }  // namespace fam

@@ -1,7 +1,8 @@
-// The smallest model that does: plane or space, shear or none, law, and the arcs to start with.
+// The cheapest model that does: plane or space, shear or none, law, march or boundary value, the arcs to start with.
 #pragma once
 
-#include "fam/arc_law.h"
+#include "fam/options.h"
+#include "fam/screw.h"
 
 #include "scene/span.h"
 
@@ -32,21 +33,36 @@ std::optional<RoundRod> without_torsion(std::span<const scene::Span> spans);
 // Which rod: `wanted` if it is not automatic. The Kirchhoff rod is chosen where the sections neither shear nor stretch,
 // or where both together move the tip by less than a tenth of the tolerance; left_out_mm bounds what was left out.
 struct RodChoice {
-  RodModel model;
+  RodModel model = RodModel::automatic;
   double left_out_mm = 0;
   std::string reason;
 };
 RodChoice choose_rod(std::span<const scene::Span> spans, RodModel wanted, double tolerance_mm);
 
-// Arcs of each span to start with: as many as it takes that no arc sees more growth than first_growth, sqrt(force / EI)
-// h and, in space, moment_growth_per_Nmm2 times the moment and h, and that none turns farther by rest curvature,
-// tendons and moments than first_turn_rad where a force acts.
-constexpr double first_growth = 1.5;
+// Arcs of each span to start with: as many as it takes that no arc has a load length (load_length.h) beyond
+// first_load_length, and that none turns farther by rest curvature, tendons and moments than first_turn_rad where a
+// force acts. Chosen, not measured.
+constexpr double first_load_length = 1.5;
 constexpr double first_turn_rad = 2;
 constexpr int most_first_arcs = 1000;  // of a span
 std::vector<int> first_arcs(std::span<const scene::Span> spans, bool planar);
 
-// The largest growth sqrt(force / EI) h that an arc sees, EI the least stiffness of its span.
-double largest_growth(std::span<const scene::Span> spans, std::span<const int> arcs_per_span);
+// All that is fixed once the options are read against the scene.
+struct Choice {
+  Law law = Law::automatic;  // chosen
+  RodChoice rod = {};
+  std::optional<PlanarScene> plane;
+  std::optional<RoundRod> round;  // of rods in space
+  bool march = false;             // all loads follow the rod; else a boundary value problem
+  std::string reason;
+
+  // The spans as they are solved, but for a plane's rotation.
+  std::span<const scene::Span> solved_spans(std::span<const scene::Span> scene_spans) const {
+    return round ? std::span<const scene::Span>(round->spans) : scene_spans;
+  }
+  // From the frame that the rod is solved in to the base frame.
+  Matrix3d rotation_BP() const { return plane ? plane->rotation_BP : Matrix3d::Identity(); }
+};
+Choice choose(std::span<const scene::Span> spans, const Options& options, double tolerance_mm);
 
 }  // namespace fam

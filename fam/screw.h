@@ -1,4 +1,4 @@
-// Screw motions: the SE(3) exponential of a constant strain, and the wrench carried through it (theory: one arc).
+// Screw motions: the SE(3) exponential of a constant strain, and the wrench carried through it.
 //
 // Accuracy: the coefficients A, B, C have a relative error below 4e-16 at any angle; for |theta| < 1 they are Taylor
 // series, because the closed forms cancel there, beyond it closed forms without cancellation.
@@ -28,11 +28,11 @@ template <class T>
 using Vector3 = Eigen::Matrix<T, 3, 1>;
 template <class T, int D>
 using Vector = Eigen::Matrix<T, D, 1>;
-constexpr int turns_of(int dimension) {
+constexpr int rotations_of(int dimension) {
   return dimension == 3 ? 3 : 1;
 }
 template <class T, int D>
-using Turn = Eigen::Matrix<T, turns_of(D), 1>;
+using Angular = Eigen::Matrix<T, rotations_of(D), 1>;
 
 // Cross products: turn x vector, turn x turn (nothing in the plane), and vector x vector, a turn.
 template <class T>
@@ -40,26 +40,26 @@ Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
   return a.cross(b);
 }
 template <class T>
-Vector<T, 2> cross(const Turn<T, 2>& a, const Vector<T, 2>& b) {
+Vector<T, 2> cross(const Angular<T, 2>& a, const Vector<T, 2>& b) {
   return {-a[0] * b[1], a[0] * b[0]};
 }
 template <class T>
-Turn<T, 2> cross(const Turn<T, 2>&, const Turn<T, 2>&) {
-  return Turn<T, 2>::Zero();
+Angular<T, 2> cross(const Angular<T, 2>&, const Angular<T, 2>&) {
+  return Angular<T, 2>::Zero();
 }
 template <class T>
 Vector3<T> arm_cross(const Vector3<T>& a, const Vector3<T>& b) {
   return a.cross(b);
 }
 template <class T>
-Turn<T, 2> arm_cross(const Vector<T, 2>& a, const Vector<T, 2>& b) {
-  return Turn<T, 2>(a[0] * b[1] - a[1] * b[0]);
+Angular<T, 2> arm_cross(const Vector<T, 2>& a, const Vector<T, 2>& b) {
+  return Angular<T, 2>(a[0] * b[1] - a[1] * b[0]);
 }
 
 // Strain times arc length: rotation vector (rad) and translation (mm), both in the arc's proximal frame.
 template <class T, int D = 3>
 struct BasicScrew {
-  Turn<T, D> rotation = Turn<T, D>::Zero();
+  Angular<T, D> rotation = Angular<T, D>::Zero();
   Vector<T, D> translation_mm = Vector<T, D>::Zero();
 };
 using Screw = BasicScrew<double>;
@@ -83,7 +83,7 @@ BasicScrew<T, D> bracket(const BasicScrew<T, D>& a, const BasicScrew<T, D>& b) {
 template <class T, int D = 3>
 struct BasicWrench {
   Vector<T, D> force_N = Vector<T, D>::Zero();
-  Turn<T, D> moment_Nmm = Turn<T, D>::Zero();
+  Angular<T, D> moment_Nmm = Angular<T, D>::Zero();
 };
 using SectionWrench = BasicWrench<double>;
 
@@ -128,7 +128,7 @@ BasicCoefficients<T> screw_coefficients(const T& angle_squared) {
 // R x = x + A w x x + B w x (w x x).
 template <class T, int D = 3>
 struct BasicMotion {
-  Turn<T, D> rotation;       // w, rad
+  Angular<T, D> rotation;    // w, rad
   Vector<T, D> position_mm;  // p = (I + B [w]x + C [w]x^2) d
   T A, B;
 
@@ -141,7 +141,7 @@ struct BasicMotion {
     return x + (B * cross(rotation, wx) - A * wx);
   }
   // A moment; in the plane it stays as it is.
-  Turn<T, D> rotate_turn(const Turn<T, D>& m) const {
+  Angular<T, D> rotate_moment(const Angular<T, D>& m) const {
     if constexpr (D == 3) return rotate(m);
     else return m;
   }
@@ -150,7 +150,7 @@ using RigidMotion = BasicMotion<double>;
 
 template <class T, int D>
 BasicMotion<T, D> exponential(const BasicScrew<T, D>& screw) {
-  const Turn<T, D>& w = screw.rotation;
+  const Angular<T, D>& w = screw.rotation;
   const Vector<T, D>& d = screw.translation_mm;
   const T angle_squared = w.dot(w);
   const BasicCoefficients<T> k = screw_coefficients(angle_squared);
@@ -167,7 +167,7 @@ inline RigidMotion twist(double angle_rad) {
 template <class T, int D>
 BasicWrench<T, D> transport(const BasicMotion<T, D>& motion, const BasicWrench<T, D>& distal) {
   const Vector<T, D> force = motion.rotate(distal.force_N);
-  return {force, motion.rotate_turn(distal.moment_Nmm) + arm_cross(motion.position_mm, force)};
+  return {force, motion.rotate_moment(distal.moment_Nmm) + arm_cross(motion.position_mm, force)};
 }
 
 // Pose of a section frame S in the base frame B; the rows of the rotation are turned one by one.

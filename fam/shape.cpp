@@ -76,10 +76,25 @@ BasicPose<D> pose_in_arc(const SolvedRod<D>& rod, const SpanArcs<D>& span, int a
   if (fraction <= 0) return rod.poses[k];
   if (fraction >= 1) return rod.poses[k + 1];
   if constexpr (D == 3) {
-    if (rod.law == Law::published) return pose_by_bezier(rod.arcs[k], rod.poses[k], fraction);
+    if (!facts_of(rod.law).coupled) return pose_by_bezier(rod.arcs[k], rod.poses[k], fraction);
   }
   return rod.model == RodModel::reissner ? pose_by_law<true>(rod, span, arc, fraction)
                                          : pose_by_law<false>(rod, span, arc, fraction);
+}
+
+template <int D>
+bool any_tendon_collapsed(const SolvedRod<D>& rod) {
+  for (const SpanArcs<D>& span : rod.spans) {
+    if (!span.constants.straight_tendons) continue;
+    for (const BasicTendon<D>& tendon : span.constants.tendons) {
+      for (int arc = span.first_arc; arc < span.end_arc; ++arc) {
+        const BasicScrew<double, D>& strain = rod.arcs[static_cast<std::size_t>(arc)].screw;
+        const Vector<double, D> t = strain.translation_mm + cross(strain.rotation, tendon.arm_mm);
+        if (!(t[0] > smallest_tendon_stretch * span.constants.length_mm)) return true;
+      }
+    }
+  }
+  return false;
 }
 
 // From the arc's distal end towards the clamp: the forces beyond and the moments of what lies between.
@@ -147,6 +162,8 @@ typename BasicShape<D>::Section BasicShape<D>::section(int arc, double fraction)
 
 template BasicPose<2> pose_in_arc(const SolvedRod<2>&, const SpanArcs<2>&, int, double);
 template BasicPose<3> pose_in_arc(const SolvedRod<3>&, const SpanArcs<3>&, int, double);
+template bool any_tendon_collapsed(const SolvedRod<2>&);
+template bool any_tendon_collapsed(const SolvedRod<3>&);
 template class BasicShape<2>;
 template class BasicShape<3>;
 

@@ -26,6 +26,10 @@ constexpr std::array<double, 4> gauss_weights{0.17392742256872693, 0.32607257743
 template <int D>
 BasicPose<D> pose_in_arc(const SolvedRod<D>& rod, const SpanArcs<D>& span, int arc, double fraction);
 
+// Whether a straight tendon (fam/tendon.h), which the laws do not check, has collapsed (smallest_tendon_stretch).
+template <int D>
+bool any_tendon_collapsed(const SolvedRod<D>& rod);
+
 template <int D>
 class BasicShape {
  public:

@@ -1,7 +1,8 @@
 // The arcs of one span and the loads that they meet on the march from tip to clamp.
 #pragma once
 
-#include "fam/arc_law.h"
+#include "fam/arc_section.h"
+#include "fam/arc_step.h"
 #include "fam/rotation.h"
 
 namespace fam {
@@ -29,15 +30,15 @@ struct SpanArcs {
   // All loads times the factor.
   void set_load(const scene::Span& span, RodModel model, double factor) {
     const auto load = [factor](const scene::Wrench& wrench) -> BasicWrench<double, D> {
-      return {factor * in_space_or_plane<D>(wrench.force_N), factor * turn_in_space_or_plane<D>(wrench.moment_Nmm)};
+      return {factor * linear_part<D>(wrench.force_N), factor * angular_part<D>(wrench.moment_Nmm)};
     };
     if (!span.tendons.empty()) set_tendons(constants, span, model, factor);
     follower_load_S = load(span.follower_load_S);
     fixed_load_B = load(span.fixed_load_B);
     fixed_force_arms_BS_Nmm = factor * span.fixed_force_arms_BS_Nmm.topLeftCorner<D, D>();
     const double along_arc = factor * constants.length_mm;
-    follower_force_S_N = along_arc * in_space_or_plane<D>(span.follower_force_S_N_per_mm);
-    fixed_force_B_N = along_arc * in_space_or_plane<D>(span.fixed_force_B_N_per_mm);
+    follower_force_S_N = along_arc * linear_part<D>(span.follower_force_S_N_per_mm);
+    fixed_force_B_N = along_arc * linear_part<D>(span.fixed_force_B_N_per_mm);
   }
 
   // The point loads at the span's distal end, for the section there.

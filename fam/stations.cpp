@@ -1,6 +1,7 @@
 #include "fam/stations.h"
 
 #include "fam/embedding.h"
+#include "scene/load_visitor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,7 +84,7 @@ scene::Station station(double s_mm, const typename BasicShape<D>::Section& secti
   return {s_mm,
           {pose.rotation_BS, pose.position_B_mm},
           rotation_BP * embedded(section.own_B.force_N),
-          rotation_BP * embedded_turn(section.own_B.moment_Nmm)};
+          rotation_BP * embedded_angular(section.own_B.moment_Nmm)};
 }
 
 // Length of t = v + u x r per mm of rod.
@@ -97,7 +98,7 @@ std::vector<double> shortenings_mm(const scene::Scene& scene, std::span<const sc
                                    const SolvedRod<D>& rod, const BasicShape<D>& shape, const Matrix3d& rotation_BP) {
   std::vector<const scene::Tendon*> tendons;
   for (const scene::Load& load : scene.loads) {
-    if (const auto* tendon = std::get_if<scene::Tendon>(&load)) tendons.push_back(tendon);
+    if (const scene::Tendon* tendon = scene::tendon_of(load)) tendons.push_back(tendon);
   }
   std::vector<double> result(tendons.size(), 0);
   if (tendons.empty()) return result;
@@ -107,7 +108,7 @@ std::vector<double> shortenings_mm(const scene::Scene& scene, std::span<const sc
     for (int arc = rod.spans[i].first_arc; arc < rod.spans[i].end_arc; ++arc) {
       for (std::size_t g = 0; g < gauss_points.size(); ++g) {
         const BasicScrew<double, D> strain = shape.section(arc, gauss_points[g]).strain_per_mm;
-        const Vector3d u = rotation_BP * embedded_turn(strain.rotation),
+        const Vector3d u = rotation_BP * embedded_angular(strain.rotation),
                        v = rotation_BP * embedded(strain.translation_mm);
         for (std::size_t t = 0; t < tendons.size(); ++t) {
           if (middle_mm > tendons[t]->to_mm) continue;
@@ -121,28 +122,12 @@ std::vector<double> shortenings_mm(const scene::Scene& scene, std::span<const sc
   return result;
 }
 
-// Straight tendons (fam/tendon.h) are not checked by the laws.
-template <int D>
-bool any_collapsed(const SolvedRod<D>& rod) {
-  for (const SpanArcs<D>& span : rod.spans) {
-    if (!span.constants.straight_tendons) continue;
-    for (const BasicTendon<D>& tendon : span.constants.tendons) {
-      for (int arc = span.first_arc; arc < span.end_arc; ++arc) {
-        const BasicScrew<double, D>& strain = rod.arcs[static_cast<std::size_t>(arc)].screw;
-        const Vector<double, D> t = strain.translation_mm + cross(strain.rotation, tendon.arm_mm);
-        if (!(t[0] > smallest_tendon_stretch * span.constants.length_mm)) return true;
-      }
-    }
-  }
-  return false;
-}
-
 }  // namespace
 
 template <int D>
 void set_shape(scene::Equilibrium& result, const scene::Scene& scene, std::span<const scene::Span> spans,
                const SolvedRod<D>& rod, const Matrix3d& rotation_BP) {
-  if (any_collapsed(rod)) {
+  if (any_tendon_collapsed(rod)) {
     result.status = scene::Status::tendon_collapsed;
     result.message = "a tendon's path has no length somewhere: |v + u x r| = 0";
     return;

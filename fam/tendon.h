@@ -53,15 +53,15 @@ template <bool with_shear, class T, int D>
 class TendonSection {
  public:
   static constexpr bool gives_way = with_shear;
-  static constexpr int turns = turns_of(D);
-  static constexpr int unknowns = with_shear ? turns + D : turns;
+  static constexpr int rotations = rotations_of(D);
+  static constexpr int unknowns = with_shear ? rotations + D : rotations;
   using Strain = Eigen::Matrix<T, unknowns, 1>;  // u h, then v h where it gives way
   using Tendons = std::vector<BasicTendon<D>>;
 
   template <class Constants>  // BasicArcConstants<D>
   explicit TendonSection(const Constants& arc) : tendons_(arc.tendons), rest_translation_mm_(arc.rest_translation_mm) {
-    compliance_.template head<turns>() = arc.angular_compliance;
-    rest_.template head<turns>() = arc.rest_rotation;
+    compliance_.template head<rotations>() = arc.angular_compliance;
+    rest_.template head<rotations>() = arc.rest_rotation;
     if constexpr (with_shear) {
       compliance_.template tail<D>() = arc.linear_compliance;
       rest_.template tail<D>() = arc.rest_translation_mm;
@@ -95,8 +95,8 @@ class TendonSection {
     factorise(matrix);
   }
 
-  [[gnu::noinline]] void next(std::size_t k, const Turn<T, D>& moment_Nmm, const Vector<T, D>& force_N,
-                              Turn<T, D>& rotation, Vector<T, D>& translation_mm) {
+  [[gnu::noinline]] void next(std::size_t k, const Angular<T, D>& moment_Nmm, const Vector<T, D>& force_N,
+                              Angular<T, D>& rotation, Vector<T, D>& translation_mm) {
     Strain x = vector(moment_Nmm, force_N);
     for (std::size_t i = 0; i < tendons_.size(); ++i) {
       known_parts(series_[i], k);
@@ -123,15 +123,15 @@ class TendonSection {
     std::array<T, terms> length;
   };
 
-  static Strain vector(const Turn<T, D>& turn, const Vector<T, D>& translation) {
+  static Strain vector(const Angular<T, D>& turn, const Vector<T, D>& translation) {
     Strain x;
-    x.template head<turns>() = turn;
+    x.template head<rotations>() = turn;
     if constexpr (with_shear) x.template tail<D>() = translation;
     return x;
   }
   template <class Number>
   static BasicScrew<Number, D> screw(const Eigen::Matrix<Number, unknowns, 1>& x, const Vector<Number, D>& rigid) {
-    if constexpr (with_shear) return {x.template head<turns>(), x.template tail<D>()};
+    if constexpr (with_shear) return {x.template head<rotations>(), x.template tail<D>()};
     else return {x, rigid};
   }
   Vector<T, D> arm(std::size_t i) const { return tendons_[i].arm_mm.template cast<T>(); }
@@ -155,7 +155,7 @@ class TendonSection {
       Vector<Number, D> t = tangent<Number>(screw<Number>(unit, Vector<Number, D>(Vector<Number, D>::Zero())), arm);
       t -= d * d.dot(t);
       Eigen::Matrix<Number, unknowns, 1> row;
-      row.template head<turns>() = arm_cross(arm, t);
+      row.template head<rotations>() = arm_cross(arm, t);
       if constexpr (with_shear) row.template tail<D>() = t;
       matrix.col(column) += compliance_.template cast<Number>().cwiseProduct(row) * factor;
     }
@@ -176,7 +176,7 @@ class TendonSection {
       if (!(value_of(length) > smallest_tendon_stretch * rest_translation_mm_[0])) return false;
       const Vector<Number, D> d = t * (Number(1) / length);
       const Number tension(tendons_[i].tension_N);
-      rest_loads.template head<turns>() -= arm_cross(arm, d) * tension;
+      rest_loads.template head<rotations>() -= arm_cross(arm, d) * tension;
       if constexpr (with_shear) rest_loads.template tail<D>() -= d * tension;
       if constexpr (std::is_same_v<Number, double>) {
         if (matrix) add_stiffness<double>(*matrix, i, d, length);
@@ -204,13 +204,13 @@ class TendonSection {
     Unknowns x = rest_, direct = loads;
     for (const BasicTendon<D>& tendon : tendons_) {
       const Vector<double, D> e_x = Vector<double, D>::Unit(0);
-      direct.template head<turns>() -= tendon.tension_N * arm_cross(tendon.arm_mm, e_x);
+      direct.template head<rotations>() -= tendon.tension_N * arm_cross(tendon.arm_mm, e_x);
       if constexpr (with_shear) direct.template tail<D>() -= tendon.tension_N * e_x;
     }
     x += compliance_.cwiseProduct(direct);
     Unknowns scale = direct.cwiseAbs() + loads.cwiseAbs();  // of the loads, then of the strains
     for (const BasicTendon<D>& tendon : tendons_) {
-      scale.template head<turns>().array() += tendon.tension_N * tendon.arm_mm.norm();
+      scale.template head<rotations>().array() += tendon.tension_N * tendon.arm_mm.norm();
       if constexpr (with_shear) scale.template tail<D>().array() += tendon.tension_N;
     }
     scale = (rest_.cwiseAbs() + compliance_.cwiseProduct(scale)).eval();

@@ -240,7 +240,7 @@ bool BeamSystem::newton_increment(BeamIncrement& increment) {
   return true;
 }
 
-std::optional<Determinant> BeamSystem::determinant() {
+std::optional<scene::Determinant> BeamSystem::determinant() {
   Implementation& self = *implementation_;
   const bool first = self.watched.empty();
   if (first) self.number_watched();
@@ -253,7 +253,8 @@ std::optional<Determinant> BeamSystem::determinant() {
   if (first) self.determinant_factors.analyzePattern(self.watched_tangent);
   self.determinant_factors.factorize(self.watched_tangent);
   if (self.determinant_factors.info() != Eigen::Success) return std::nullopt;
-  return Determinant{self.determinant_factors.logAbsDeterminant(), self.determinant_factors.signDeterminant() < 0};
+  return scene::Determinant{self.determinant_factors.logAbsDeterminant(),
+                            self.determinant_factors.signDeterminant() < 0};
 }
 
 }  // namespace fem_reference

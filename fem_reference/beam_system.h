@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fem_reference/beam_model.h"
+#include "scene/branch_watch.h"
 
 #include <memory>
 #include <optional>
@@ -18,11 +19,6 @@ struct Residual {
   bool finite() const;
 };
 
-struct Determinant {
-  double log_size = 0;
-  bool negative = false;
-};
-
 class BeamSystem {
  public:
   explicit BeamSystem(const BeamModel& model);  // keeps a reference to the model
@@ -36,7 +32,7 @@ class BeamSystem {
 
   // Of the tangent assembled last, as it acts on motions in the plane of the model's symmetry if there is one. deal.II
   // does not show that of UMFPACK's factors, so Eigen factorises it once more. Empty: the matrix is singular.
-  std::optional<Determinant> determinant();
+  std::optional<scene::Determinant> determinant();
 
  private:
   struct Implementation;

@@ -1,7 +1,6 @@
 #include "fem_reference/load_stepping.h"
 
 #include "fem_reference/beam_element.h"
-#include "fem_reference/branch_watch.h"
 #include "fem_reference/stability.h"
 #include "fem_reference/tendon_pull.h"
 
@@ -191,7 +190,7 @@ class Stepping {
     if (watches_determinant_) start_watch();
     while (load_factor_ < 1) {
       if (tried_ == options_.max_load_steps) return failed(scene::Status::work_limit, step_);
-      step_ = std::min(step_, longest_step());
+      step_ = std::min(step_, branch_.longest_step(load_factor_));
       if (step_ < options_.smallest_load_step) {
         last_.outcome = Outcome::left_branch;
         return failed(scene::Status::load_step_too_small, step_);
@@ -250,18 +249,15 @@ class Stepping {
     for (const double load_factor : {0.0, 0.01 * step_}) {
       BeamState trial = state_;
       last_ = iterate(system_, state_, trial, load_factor, options_);
-      const std::optional<Determinant> determinant = system_.determinant();
+      const std::optional<scene::Determinant> determinant = system_.determinant();
       if (last_.outcome == Outcome::converged && determinant) branch_.keep(load_factor, *determinant);
     }
   }
 
-  // Not on to where the determinant vanishes.
-  double longest_step() const { return 0.8 * (branch_.load_of_zero() - load_factor_); }
-
   // Judges the equilibrium assembled last, and remembers it if it is on the branch.
   bool stays_on_branch(const BeamState& state, double load_factor) {
-    const std::optional<Determinant> determinant =
-        watches_determinant_ ? system_.determinant() : std::optional<Determinant>(Determinant{});
+    const std::optional<scene::Determinant> determinant =
+        watches_determinant_ ? system_.determinant() : std::optional<scene::Determinant>(scene::Determinant{});
     if (!determinant || branch_.has_left(*determinant)) {
       last_.outcome = determinant ? Outcome::left_branch : Outcome::singular;
       return false;
@@ -303,7 +299,7 @@ class Stepping {
   Attempt last_;
   BeamIncrement last_increment_;
   double last_step_ = 0;
-  BranchWatch branch_;
+  scene::BranchWatch branch_;
   SteppingResult result_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "fem_reference/beam_element.h"
 #include "fem_reference/tendon_pull.h"
+#include "scene/load_visitor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -178,7 +179,7 @@ Vector3d position_B_mm(const SolvedBeam& beam, double s_mm) {
 std::vector<double> tendon_shortening_mm(const SolvedBeam& beam, const std::vector<scene::Load>& loads) {
   std::vector<double> result;
   for (const scene::Load& load : loads) {
-    if (const auto* tendon = std::get_if<scene::Tendon>(&load)) result.push_back(shortening_mm(beam, *tendon));
+    if (const scene::Tendon* tendon = scene::tendon_of(load)) result.push_back(shortening_mm(beam, *tendon));
   }
   return result;
 }

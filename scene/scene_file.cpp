@@ -1,5 +1,7 @@
 #include "scene/scene_file.h"
 
+#include "scene/load_visitor.h"
+
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
@@ -218,33 +220,52 @@ double read_place(const Node& node, double length) {
   return at.number("must be a number or \"tip\"");
 }
 
-Load read_load(const Node& node, double length) {
-  node.require_object();
-  const Node kind_node = node.at("kind");
-  const std::string kind = kind_node.string();
-  if (kind == "force") {
+// A reader for each kind of load.
+struct LoadReader {
+  const Node& node;
+  double length;
+
+  Load operator()(const Force&) const {
     node.allow_keys({"kind", "at", "frame", "value_N", "offset_mm"});
     return Force{read_place(node, length), node.at("frame").frame(), node.at("value_N").vector<3>(),
                  node.has("offset_mm") ? node.at("offset_mm").vector<2>() : Vector2d::Zero()};
   }
-  if (kind == "moment") {
+  Load operator()(const Moment&) const {
     node.allow_keys({"kind", "at", "frame", "value_Nmm"});
     return Moment{read_place(node, length), node.at("frame").frame(), node.at("value_Nmm").vector<3>()};
   }
-  if (kind == "distributed_force") {
+  Load operator()(const DistributedForce&) const {
     node.allow_keys({"kind", "from_mm", "to_mm", "frame", "value_N_per_mm"});
     return DistributedForce{node.number_or("from_mm", 0), node.number_or("to_mm", length), node.at("frame").frame(),
                             node.at("value_N_per_mm").vector<3>()};
   }
-  if (kind == "gravity") {
+  Load operator()(const Gravity&) const {
     node.allow_keys({"kind", "acceleration_m_per_s2"});
     return Gravity{node.at("acceleration_m_per_s2").vector<3>()};
   }
-  if (kind == "tendon") {
+  Load operator()(const Tendon&) const {
     node.allow_keys({"kind", "offset_mm", "tension_N", "to_mm"});
     return Tendon{node.at("offset_mm").vector<2>(), node.at("tension_N").number(), node.number_or("to_mm", length)};
   }
-  kind_node.refuse("must be force, moment, distributed_force, gravity or tendon");
+};
+
+// One load of each kind.
+template <class... Kinds>
+std::vector<Load> all_kinds(const std::variant<Kinds...>&) {
+  return {Kinds{}...};
+}
+
+Load read_load(const Node& node, double length) {
+  node.require_object();
+  const Node kind_node = node.at("kind");
+  const std::string kind = kind_node.string();
+  static const std::vector<Load> kinds = all_kinds(Load{});
+  std::string names;
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    if (kind == kind_name(kinds[i])) return std::visit(LoadReader{node, length}, kinds[i]);
+    names += (i == 0 ? "" : i + 1 < kinds.size() ? ", " : " or ") + std::string(kind_name(kinds[i]));
+  }
+  kind_node.refuse("must be " + names);
 }
 
 Scene read(const Node& node) {
@@ -347,7 +368,7 @@ struct LoadWriter {
   double length;
 
   Json operator()(const Force& force) const {
-    Json json{{"kind", "force"},
+    Json json{{"kind", kind_name(force)},
               {"at", place(force.at_mm, length)},
               {"frame", name(force.frame)},
               {"value_N", list(force.value_N)}};
@@ -355,23 +376,23 @@ struct LoadWriter {
     return json;
   }
   Json operator()(const Moment& moment) const {
-    return {{"kind", "moment"},
+    return {{"kind", kind_name(moment)},
             {"at", place(moment.at_mm, length)},
             {"frame", name(moment.frame)},
             {"value_Nmm", list(moment.value_Nmm)}};
   }
   Json operator()(const DistributedForce& force) const {
-    return {{"kind", "distributed_force"},
+    return {{"kind", kind_name(force)},
             {"from_mm", force.from_mm},
             {"to_mm", force.to_mm},
             {"frame", name(force.frame)},
             {"value_N_per_mm", list(force.value_N_per_mm)}};
   }
   Json operator()(const Gravity& gravity) const {
-    return {{"kind", "gravity"}, {"acceleration_m_per_s2", list(gravity.acceleration_m_per_s2)}};
+    return {{"kind", kind_name(gravity)}, {"acceleration_m_per_s2", list(gravity.acceleration_m_per_s2)}};
   }
   Json operator()(const Tendon& tendon) const {
-    return {{"kind", "tendon"},
+    return {{"kind", kind_name(tendon)},
             {"offset_mm", list(tendon.offset_mm)},
             {"tension_N", tendon.tension_N},
             {"to_mm", tendon.to_mm}};

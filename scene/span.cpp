@@ -130,7 +130,7 @@ std::vector<Span> spans_of(const Scene& scene) {
   return spans;
 }
 
-std::vector<int> cells_per_span(const std::vector<Span>& spans, int count) {
+std::vector<int> cells_per_span(std::span<const Span> spans, int count) {
   const double length = spans.back().end_mm;
   std::vector<int> cells(spans.size());
   std::vector<double> share(spans.size());  // cells wanted beyond those given

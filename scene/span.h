@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include <span>
 #include <vector>
 
 namespace scene {
@@ -60,6 +61,6 @@ std::vector<Span> spans_of(const Scene& scene);
 
 // Shares `count` cells (arcs, elements) out over the spans, by length, at least one each, so that the sum is
 // max(count, number of spans).
-std::vector<int> cells_per_span(const std::vector<Span>& spans, int count);
+std::vector<int> cells_per_span(std::span<const Span> spans, int count);
 
 }  // namespace scene

@@ -6,6 +6,7 @@
 #include "studies/compare/error_measures.h"
 #include "studies/scenes/random_scene.h"
 #include "support.h"
+#include "support_fam.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -21,13 +22,8 @@ using scene::Equilibrium;
 using scene::Frame;
 using scene::Scene;
 using support::slender;
+using support::solved;
 using support::uniform_rod;
-
-Equilibrium solved(const Scene& scene, double tolerance_mm) {
-  fam::Options options;
-  options.tolerance_mm = tolerance_mm;
-  return fam::solve(scene, options);
-}
 
 struct Benchmark {
   Scene scene;
@@ -66,7 +62,7 @@ TEST(Answers, TendonsAndOffsetForcesAgainstAnIndependentShooting) {
   }
 }
 
-// Two tendons of 5 N at y = +-3 mm under a torque: GJ u + 2 T r^2 u / sqrt(1 + r^2 u^2) = M (theory, section 10), for
+// Two tendons of 5 N at y = +-3 mm under a torque: GJ u + 2 T r^2 u / sqrt(1 + r^2 u^2) = M, where t = (1, u x r), for
 // every law, and 0.04 where the tendons would not tilt.
 TEST(Answers, TendonsStiffenARodAgainstTorsion) {
   const scene::Tendon left{{3, 0}, 5, 40}, right{{-3, 0}, 5, 40};
@@ -75,7 +71,7 @@ TEST(Answers, TendonsStiffenARodAgainstTorsion) {
     const Matrix3d R = result.stations[10].X_BS.rotation_BS;
     return std::atan2(R(2, 1), R(1, 1)) / result.stations[10].s_mm;
   };
-  for (const fam::Law law : {fam::Law::published, fam::Law::midpoint, fam::Law::fourth_order, fam::Law::sixth_order}) {
+  for (const fam::Law law : fam::all_laws()) {
     fam::Options options;
     options.law = law;
     options.arcs = 4;

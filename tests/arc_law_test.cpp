@@ -102,4 +102,15 @@ TEST(PublishedLaw, SaysWhenItFindsNoAngle) {
   EXPECT_FALSE(published_angle({std::nan(""), 1, 1}, angle));
 }
 
+TEST(LawList, NamesLeadBackToTheirLaws) {
+  for (const fam::Law law : fam::all_laws()) {
+    EXPECT_EQ(fam::law_named(fam::name(law)), law);
+    EXPECT_EQ(fam::chosen(law), law);
+    EXPECT_EQ(fam::facts_of(law).law, law);
+  }
+  EXPECT_EQ(fam::law_named(fam::name(fam::Law::automatic)), fam::Law::automatic);
+  EXPECT_NE(fam::chosen(fam::Law::automatic), fam::Law::automatic);
+  EXPECT_EQ(fam::law_named("seventh_order"), std::nullopt);
+}
+
 }  // namespace

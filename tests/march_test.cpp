@@ -39,20 +39,21 @@ scene::Scene tip_loaded(const scene::Stiffness& stiffness, const Vector3d& force
       {scene::Force{length_mm, Frame::follower, force_N}, scene::Moment{length_mm, Frame::follower, moment_Nmm}});
 }
 
-// theory.md, section 3: a prototype's rod and its exact tip to 12 decimals.
+// A prototype's rod and its tip to 12 decimals; the exact reference finds the same
+// (ExactReference.SpatialFollowerLoad).
 const Vector3d check_tip_mm(39.801266166031, 3.068161908374, 0.175073477554);
 scene::Scene check_rod(double stiffness_factor = 1) {
   return tip_loaded(slender(stiffness_factor * 1500, stiffness_factor * 1000), {-0.5, 0.8, 0.6}, {10, 20, -15});
 }
 
-TEST(March, CheckValueOfTheory) {
+TEST(March, CheckValue) {
   const double limit_mm = 1e-8;  // measured 1.2e-9
   EXPECT_LT((tip(check_rod(), with(Law::fourth_order, 128)) - check_tip_mm).norm(), limit_mm);
   EXPECT_GT((tip(check_rod(1.05), with(Law::fourth_order, 128)) - check_tip_mm).norm(), limit_mm);
   EXPECT_GT((tip(check_rod(), with(Law::fourth_order, 50)) - check_tip_mm).norm(), limit_mm);
 }
 
-// theory.md, section 3: errors that a prototype of the same laws measured, to the digits it printed.
+// Errors that an independent prototype of the same laws measured, to the digits it printed.
 TEST(March, ErrorsOfThePrototype) {
   const auto error = [](Law law, int arcs) { return (tip(check_rod(), with(law, arcs)) - check_tip_mm).norm(); };
   EXPECT_NEAR(error(Law::midpoint, 1), 3.7, 0.05);
@@ -71,8 +72,8 @@ TEST(March, ErrorsOfThePrototype) {
   EXPECT_NEAR(planar(500), 9.03e-6, 0.02e-6);
 }
 
-// theory.md, section 5: with shear and stretch, and without. It was made with E = 11.789 MPa, EI = 749.98 N mm^2, which
-// moves the tip by 5e-4 mm, hence the limit; GatesOfStudy1 is the sharp test of the same rod (P2).
+// With shear and stretch, and without, by an independent collocation. It was made with E = 11.789 MPa, EI = 749.98 N
+// mm^2, which moves the tip by 5e-4 mm, hence the limit; GatesOfStudy1 is the sharp test of the same rod (P2).
 TEST(March, ShearAndStretch) {
   const double limit_mm = 1e-3;
   scene::Stiffness thick = slender(750, 500);
@@ -85,20 +86,12 @@ TEST(March, ShearAndStretch) {
   EXPECT_GT((tip(support::stiffer(scene), with(Law::fourth_order, 64)) - sheared_mm).norm(), limit_mm);
 }
 
-Law law_named(const std::string& name) {
-  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order, Law::sixth_order}) {
-    if (name == fam::name(law)) return law;
-  }
-  ADD_FAILURE() << name;
-  return Law::automatic;
-}
-
 // The table of gates, tests/data/study1_gates.csv, whose head says what its columns are.
 TEST(March, GatesOfStudy1) {
   for (const support::Row& row : support::read_csv("study1_gates.csv")) {
     SCOPED_TRACE(row.at("case") + " " + row.at("law") + " " + row.at("arcs") + " " + row.at("model"));
     const RodModel model = row.at("model") == "reissner" ? RodModel::reissner : RodModel::kirchhoff;
-    const fam::Options options = with(law_named(row.at("law")), std::stoi(row.at("arcs")), model);
+    const fam::Options options = with(*fam::law_named(row.at("law")), std::stoi(row.at("arcs")), model);
     const Vector3d exact_mm = support::study1_tip_mm(row.at("case"), "follower", row.at("model"));
     const scene::Scene scene = support::study1_scene(row.at("case"), "follower");
     const double measured_mm = support::number(row, "measured_mm"), limit_mm = support::number(row, "limit_mm");
@@ -152,7 +145,7 @@ TEST(March, PublishedLawFallsToTheEnd) {
 TEST(March, RollUp) {
   const double two_turns = 4 * std::numbers::pi * 750 / 40;
   const scene::Scene scene = tip_loaded(slender(750, 500), {0, 0, 0}, {0, 0, two_turns});
-  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order, Law::sixth_order}) {
+  for (const Law law : fam::all_laws()) {
     EXPECT_LT(tip(scene, with(law, 1)).norm(), 1e-13);
     EXPECT_LT(tip(scene, with(law, 1000)).norm(), 1e-11);
   }
@@ -164,7 +157,7 @@ TEST(March, RollUp) {
 
 // Base wrench from global equilibrium: n(0) = R F, m(0) = R M + p x n, with the tip's pose.
 TEST(March, BaseWrenchBalancesTheLoads) {
-  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order, Law::sixth_order}) {
+  for (const Law law : fam::all_laws()) {
     const scene::Equilibrium result = fam::solve(check_rod(), with(law, 12));
     const Vector3d force = result.tip().rotation_BS * Vector3d(-0.5, 0.8, 0.6);
     const Vector3d moment = result.tip().rotation_BS * Vector3d(10, 20, -15) + result.tip().position_B_mm.cross(force);
@@ -177,7 +170,7 @@ TEST(March, BaseWrenchBalancesTheLoads) {
 TEST(March, Invariances) {
   const Vector3d F(-0.5, 0.8, 0.6), M(10, 20, -15);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d::UnitX()).toRotationMatrix();
-  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order, Law::sixth_order}) {
+  for (const Law law : fam::all_laws()) {
     const fam::Options options = with(law, 7);
     const Vector3d straight = tip(check_rod(), options);
     EXPECT_LT((tip(tip_loaded(slender(1500, 1000), turn * F, turn * M), options) - turn * straight).norm(), 1e-13);
@@ -196,7 +189,7 @@ TEST(March, Invariances) {
 TEST(March, TendonClosedForm) {
   const double curvature = 3.0 * 1.5 / 750;  // tension 3 N at y = 1.5 mm
   const Vector3d circle(std::sin(40 * curvature) / curvature, (1 - std::cos(40 * curvature)) / curvature, 0);
-  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order, Law::sixth_order}) {
+  for (const Law law : fam::all_laws()) {
     const scene::Scene scene = uniform_rod(40, slender(750, 500), {scene::Tendon{{1.5, 0}, 3, 40}});
     EXPECT_LT((tip(scene, with(law, 5)) - circle).norm(), 1e-13);
     const scene::Equilibrium result = fam::solve(scene, with(law, 5));
@@ -209,7 +202,7 @@ TEST(March, TendonClosedForm) {
 TEST(March, RestCurvatureIsTheUnloadedShape) {
   scene::Scene scene = uniform_rod(40, slender(750, 500), {});
   scene.sections[0].rest_curvature_per_mm = {0, 0, 0.02};
-  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order, Law::sixth_order}) {
+  for (const Law law : fam::all_laws()) {
     EXPECT_LT((tip(scene, with(law, 3)) - Vector3d(50 * std::sin(0.8), 50 * (1 - std::cos(0.8)), 0)).norm(), 1e-13);
   }
 }
@@ -236,7 +229,7 @@ TEST(March, SectionsAndLoadsAlongTheRod) {
 }
 
 TEST(March, SolvesWithoutAllocating) {
-  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order, Law::sixth_order}) {
+  for (const Law law : fam::all_laws()) {
     for (const RodModel model : {RodModel::kirchhoff, RodModel::reissner}) {
       if (law == Law::published && model == RodModel::reissner) continue;
       std::string reason;
@@ -257,7 +250,7 @@ TEST(March, SolvesWithoutAllocating) {
 // The estimate brackets the true error where the arcs resolve the rod.
 TEST(Solve, ErrorEstimate) {
   for (const std::string& name : support::study1_cases()) {
-    for (const Law law : {Law::published, Law::midpoint, Law::fourth_order, Law::sixth_order}) {
+    for (const Law law : fam::all_laws()) {
       fam::Options options = with(law, 24, RodModel::kirchhoff);
       options.estimate_error = true;
       const scene::Equilibrium result = fam::solve(support::study1_scene(name, "follower"), options);

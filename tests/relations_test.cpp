@@ -1,9 +1,9 @@
 // Relations between scenes, whose answers must map onto each other (relations.h).
 #include "relations.h"
 
-#include "fam/solve.h"
 #include "studies/compare/error_measures.h"
 #include "studies/scenes/random_scene.h"
+#include "support_fam.h"
 
 #include <gtest/gtest.h>
 
@@ -11,12 +11,7 @@ namespace {
 
 using scene::Equilibrium;
 using scene::Scene;
-
-Equilibrium solved(const Scene& scene, double tolerance_mm) {
-  fam::Options options;
-  options.tolerance_mm = tolerance_mm;
-  return fam::solve(scene, options);
-}
+using support::solved;
 
 // The tolerance is kept by all relations on random scenes of all kinds, within twice the tolerance.
 TEST(Answers, RelationsBetweenScenes) {

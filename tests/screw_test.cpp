@@ -59,7 +59,7 @@ TEST_P(ScrewAtAngle, GroupProperties) {
   }
 }
 
-// |n| and m.n are carried exactly by any strain (theory, section 2).
+// |n| and m.n are carried exactly by any strain.
 TEST_P(ScrewAtAngle, TransportKeepsInvariants) {
   std::mt19937 generator(2);
   std::normal_distribution<double> normal;

@@ -1,5 +1,7 @@
 #include "studies/benchmarks/cases.h"
 
+#include "scene/load_visitor.h"
+
 #include "studies/compare/error_measures.h"
 #include "studies/compare/matching_digits.h"
 #include "studies/report/table.h"
@@ -216,11 +218,7 @@ Benchmark heavy(const StudyOptions& options) {
 }  // namespace
 
 scene::Scene scaled(scene::Scene scene, double factor) {
-  for (scene::Load& load : scene.loads) {
-    if (auto* force = std::get_if<scene::Force>(&load)) force->value_N *= factor;
-    if (auto* moment = std::get_if<scene::Moment>(&load)) moment->value_Nmm *= factor;
-    if (auto* distributed = std::get_if<scene::DistributedForce>(&load)) distributed->value_N_per_mm *= factor;
-  }
+  for (scene::Load& load : scene.loads) load = scene::scaled(load, factor);
   return scene;
 }
 

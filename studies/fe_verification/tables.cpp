@@ -52,8 +52,9 @@ std::string fe_own_error_csv(const FeVerification& data) {
   Table table({"scene", "tip_error_over_L", "estimate_over_L", "kirchhoff_tip_error_over_L", "load_steps",
                "newton_iterations"});
   for (const FeOwnError& e : data.own_errors) {
-    table.add({e.scene, error_over_L_text(e.error_over_L), error_over_L_text(e.estimate_over_L), error_over_L_text(e.kirchhoff_error_over_L),
-               std::to_string(e.load_steps), std::to_string(e.newton_iterations)});
+    table.add({e.scene, error_over_L_text(e.error_over_L), error_over_L_text(e.estimate_over_L),
+               error_over_L_text(e.kirchhoff_error_over_L), std::to_string(e.load_steps),
+               std::to_string(e.newton_iterations)});
   }
   return table.csv({"50 quadratic elements, reduced integration, against the exact rod of the same model."});
 }

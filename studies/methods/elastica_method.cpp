@@ -1,6 +1,7 @@
 #include "studies/methods/elastica_method.h"
 
 #include "exact_reference/elastica.h"
+#include "scene/load_visitor.h"
 
 #include <Eigen/Geometry>
 
@@ -18,17 +19,23 @@ struct PlanarScene {
 // Adds a load; false where it is none that the elastica knows.
 bool add_load(const scene::Load& load, PlanarScene& planar, std::optional<scene::Frame>& frame) {
   const double length = planar.cantilever.length_mm;
-  if (const auto* force = std::get_if<scene::Force>(&load)) {
-    if (force->at_mm != length || force->value_N[2] != 0 || frame.value_or(force->frame) != force->frame) return false;
-    frame = force->frame;
-    planar.fixed_force = force->frame == scene::Frame::fixed;
-    planar.cantilever.tip_force_N += force->value_N.head<2>();
-    return true;
-  }
-  const auto* moment = std::get_if<scene::Moment>(&load);
-  if (!moment || moment->at_mm != length || !moment->value_Nmm.head<2>().isZero(0)) return false;
-  planar.cantilever.tip_moment_Nmm += moment->value_Nmm[2];
-  return true;
+  return scene::visit_load(
+      load,
+      [&](const scene::Force& force) {
+        if (force.at_mm != length || force.value_N[2] != 0 || frame.value_or(force.frame) != force.frame) return false;
+        frame = force.frame;
+        planar.fixed_force = force.frame == scene::Frame::fixed;
+        planar.cantilever.tip_force_N += force.value_N.head<2>();
+        return true;
+      },
+      [&](const scene::Moment& moment) {
+        if (moment.at_mm != length || !moment.value_Nmm.head<2>().isZero(0)) return false;
+        planar.cantilever.tip_moment_Nmm += moment.value_Nmm[2];
+        return true;
+      },
+      [](const scene::DistributedForce&) { return false; },  //
+      [](const scene::Gravity&) { return false; },           //
+      [](const scene::Tendon&) { return false; });
 }
 
 std::optional<PlanarScene> planar_scene(const scene::Scene& scene) {

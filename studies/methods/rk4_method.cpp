@@ -1,5 +1,6 @@
 #include "studies/methods/rk4_method.h"
 
+#include "scene/load_visitor.h"
 #include "scene/span_facts.h"
 #include "studies/methods/rk4_shooting.h"
 
@@ -29,7 +30,7 @@ std::shared_ptr<Rk4Shooting> prepared(const scene::Scene& scene, const Rk4Option
 
 bool has_tendon(const scene::Scene& scene) {
   return std::any_of(scene.loads.begin(), scene.loads.end(),
-                     [](const scene::Load& load) { return std::holds_alternative<scene::Tendon>(load); });
+                     [](const scene::Load& load) { return scene::tendon_of(load) != nullptr; });
 }
 
 std::string reason(const Rk4Shooting& solver) {

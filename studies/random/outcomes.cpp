@@ -3,6 +3,7 @@
 #include "exact_reference/solve.h"
 #include "fam/solve.h"
 #include "fem_reference/solve.h"
+#include "scene/load_visitor.h"
 #include "studies/scenes/random_scene.h"
 
 #include <fmt/format.h>
@@ -16,17 +17,11 @@ namespace {
 std::string loads_of(const scene::Scene& scene, std::uint64_t seed) {
   if (seed >= first_buckling_seed) return kind_of(seed);
   bool follower = false, fixed = false;
-  const auto meet = [&](scene::Frame frame, bool is_zero) {
-    if (!is_zero) (frame == scene::Frame::fixed ? fixed : follower) = true;
-  };
   for (const scene::Load& load : scene.loads) {
-    if (const auto* l = std::get_if<scene::Force>(&load)) meet(l->frame, l->value_N.isZero(0));
-    if (const auto* l = std::get_if<scene::DistributedForce>(&load)) meet(l->frame, l->value_N_per_mm.isZero(0));
-    if (std::holds_alternative<scene::Gravity>(load)) meet(scene::Frame::fixed, false);
-    if (const auto* l = std::get_if<scene::Moment>(&load)) {
-      meet(l->frame, l->value_Nmm.isZero(0));
-      if (l->frame == scene::Frame::fixed) meet(scene::Frame::follower, l->value_Nmm.isZero(0));  // has no energy
-    }
+    const std::optional<scene::Frame> frame = scene::frame_of(load);
+    if (!frame || scene::is_zero(load)) continue;
+    (frame == scene::Frame::fixed ? fixed : follower) = true;
+    if (!scene::is_conservative(load)) follower = true;  // a fixed moment, too
   }
   return !fixed ? "follower" : follower ? "mixed" : "dead";
 }

@@ -2,6 +2,7 @@
 
 #include "exact_reference/solve.h"
 #include "fam/solve.h"
+#include "scene/load_visitor.h"
 #include "studies/compare/error_measures.h"
 #include "studies/scenes/random_scene.h"
 
@@ -40,7 +41,7 @@ double load_size_N(const scene::Scene& scene, double length_mm) {
     size += span.length_mm() * (span.follower_force_S_N_per_mm.norm() + span.fixed_force_B_N_per_mm.norm());
   }
   for (const scene::Load& load : scene.loads) {
-    if (const auto* tendon = std::get_if<scene::Tendon>(&load)) size += tendon->tension_N;
+    if (const scene::Tendon* tendon = scene::tendon_of(load)) size += tendon->tension_N;
   }
   return size;
 }

@@ -1,5 +1,7 @@
 #include "studies/stability/maps.h"
 
+#include "scene/load_visitor.h"
+
 #include "exact_reference/elastica.h"
 #include "fam/solve.h"
 #include "studies/methods/registry.h"
@@ -120,7 +122,7 @@ scene::Equilibrium solve_in_plane(const scene::Scene& scene, int arcs) {
   result.stations = {{length_mm, {Eigen::Matrix3d::Identity(), length_mm * Vector3d(tip[0], tip[1], 0)}}};
   // Second order: the finer march is off by a third of the difference. Arcs too long as in fam::solve.
   result.error_estimate_mm = length_mm * 4 / 3 * std::hypot(tip[0] - finer[0], tip[1] - finer[1]);
-  if (std::sqrt(load) / arcs > fam::resolved_growth) {
+  if (std::sqrt(load) / arcs > fam::longest_load_length) {
     result.error_estimate_mm = std::max(result.error_estimate_mm, length_mm);
   }
   return result;
@@ -289,18 +291,25 @@ std::optional<scene::Scene> turned_to_follower(const scene::Scene& scene, const 
   const Eigen::Matrix3d tip_BS = equilibrium.tip().rotation_BS;
   const double tip_mm = scene::length_mm(scene);
   scene::Scene turned = scene;
-  for (scene::Load& load : turned.loads) {
-    if (std::holds_alternative<scene::Gravity>(load)) return {};
-    if (auto* d = std::get_if<scene::DistributedForce>(&load); d && d->frame == scene::Frame::fixed) return {};
-    if (auto* f = std::get_if<scene::Force>(&load); f && f->frame == scene::Frame::fixed) {
-      if (f->at_mm < tip_mm) return {};
-      *f = {f->at_mm, scene::Frame::follower, tip_BS.transpose() * f->value_N};
-    }
-    if (auto* m = std::get_if<scene::Moment>(&load); m && m->frame == scene::Frame::fixed) {
-      if (m->at_mm < tip_mm) return {};
-      *m = {m->at_mm, scene::Frame::follower, tip_BS.transpose() * m->value_Nmm};
-    }
-  }
+  const auto at_tip = [&](const auto& load) { return load.at_mm >= tip_mm; };
+  // False where a load cannot be turned.
+  const auto turn = [&](scene::Load& load) {
+    return scene::visit_load(
+        load,
+        [&](scene::Force& f) {
+          if (f.frame == scene::Frame::follower) return true;
+          f = {f.at_mm, scene::Frame::follower, tip_BS.transpose() * f.value_N};
+          return at_tip(f);
+        },
+        [&](scene::Moment& m) {
+          if (m.frame == scene::Frame::follower) return true;
+          m = {m.at_mm, scene::Frame::follower, tip_BS.transpose() * m.value_Nmm};
+          return at_tip(m);
+        },
+        [](scene::DistributedForce& d) { return d.frame == scene::Frame::follower; },
+        [](scene::Gravity&) { return false; }, [](scene::Tendon&) { return true; });
+  };
+  if (!std::all_of(turned.loads.begin(), turned.loads.end(), turn)) return {};
   return turned;
 }
 

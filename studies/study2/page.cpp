@@ -145,8 +145,8 @@ std::string model(const Study2Data& data) {
   for (const std::string& scene : study2_scenes) {
     most = std::max(most, largest_error_mm(row(data, scene, "exact_kirchhoff")));
   }
-  return fmt::format("on a catheter of 504 × 2.14 mm they move no place by more than {} mm in {} scenes",
-                     mm_text(most), study2_scenes.size());
+  return fmt::format("on a catheter of 504 × 2.14 mm they move no place by more than {} mm in {} scenes", mm_text(most),
+                     study2_scenes.size());
 }
 
 }  // namespace

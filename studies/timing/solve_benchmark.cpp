@@ -40,7 +40,7 @@ void add(const std::string& name, const std::shared_ptr<studies::Method>& method
 
 int main(int argc, char** argv) {
   using fam::Law;
-  for (const Law law : {Law::published, Law::midpoint, Law::fourth_order, Law::sixth_order}) {
+  for (const fam::Law law : fam::all_laws()) {
     for (const int arcs : {1, 12, 50, 1000}) {
       fam::Options options;
       options.law = law;

@@ -1,0 +1,81 @@
+// What an arc knows of its section, and the strain there under a wrench.
+#pragma once
+
+#include "fam/tendon.h"
+
+#include "scene/rod_model.h"
+#include "scene/span.h"
+
+#include <vector>
+
+namespace fam {
+
+// What an arc of one span needs to know; products with the arc length h are taken once. In the plane (D = 2) the
+// bending is about z.
+template <int D>
+struct BasicArcConstants {
+  double length_mm = 0;                                                // h
+  Angular<double, D> angular_compliance = Angular<double, D>::Zero();  // h / (GJ, EI_y, EI_z)
+  Angular<double, D> rest_rotation = Angular<double, D>::Zero();      // h (u0 + moment of straight tendons / stiffness)
+  Vector<double, D> linear_compliance = Vector<double, D>::Zero();    // h / (EA, kGA_y, kGA_z); 0: does not give way
+  Vector<double, D> rest_translation_mm = Vector<double, D>::Zero();  // h e_x
+  std::vector<BasicTendon<D>> tendons;
+  bool straight_tendons = false;  // along e_x whatever the strain: their moment is in rest_rotation
+
+  bool is_elastic() const { return tendons.empty() || straight_tendons; }
+};
+using ArcConstants = BasicArcConstants<3>;
+
+// The components of a vector in space, or of a turn, that a rod in the x-y plane has.
+template <int D>
+Vector<double, D> linear_part(const Vector3d& v) {
+  return v.head<D>();
+}
+template <int D>
+Angular<double, D> angular_part(const Vector3d& w) {
+  return w.tail<rotations_of(D)>();
+}
+
+using scene::RodModel;
+
+// Constants of the arcs of a span that is cut into `arcs`. set_tendons: their tension times load_factor, without
+// allocation after the first time.
+template <int D = 3>
+BasicArcConstants<D> arc_constants(const scene::Span& span, int arcs, RodModel model, double load_factor = 1);
+template <int D>
+void set_tendons(BasicArcConstants<D>& arc, const scene::Span& span, RodModel model, double load_factor);
+
+// What a law asks of a section: the strain times h under a wrench, and the coefficients of its series along an arc.
+// This one is elastic, without tendons (theirs: fam/tendon.h); a Kirchhoff rod keeps the rest translation.
+template <bool with_shear, class T, int D>
+class ElasticSection {
+ public:
+  static constexpr bool gives_way = with_shear;
+  explicit ElasticSection(const BasicArcConstants<D>& arc) : arc_(arc) {}
+
+  BasicScrew<T, D> strain(const BasicWrench<T, D>& wrench) const {
+    BasicScrew<T, D> screw{arc_.rest_rotation.template cast<T>() +
+                               arc_.angular_compliance.template cast<T>().cwiseProduct(wrench.moment_Nmm),
+                           arc_.rest_translation_mm.template cast<T>()};
+    if constexpr (with_shear) {
+      screw.translation_mm += arc_.linear_compliance.template cast<T>().cwiseProduct(wrench.force_N);
+    }
+    return screw;
+  }
+  void begin_series(const BasicScrew<T, D>&) const {}
+  void next(std::size_t, const Angular<T, D>& moment_Nmm, const Vector<T, D>& force_N, Angular<T, D>& rotation,
+            Vector<T, D>& translation_mm) const {
+    rotation = arc_.angular_compliance.template cast<T>().cwiseProduct(moment_Nmm);
+    if constexpr (with_shear) translation_mm = arc_.linear_compliance.template cast<T>().cwiseProduct(force_N);
+  }
+  bool collapsed() const { return false; }
+
+ private:
+  const BasicArcConstants<D>& arc_;
+};
+
+// Strain times h in any section under a wrench.
+template <bool with_shear, int D>
+BasicScrew<double, D> strain_under(const BasicArcConstants<D>& arc, const BasicWrench<double, D>& wrench);
+
+}  // namespace fam

@@ -1,0 +1,72 @@
+// How the load of a boundary value problem grows from zero, and which steps keep to the branch.
+//
+// Where the loads are too small for a second equilibrium (Shooting::one_equilibrium) the full load is solved for at
+// once. Beyond, it grows from zero in steps; a step is taken only if Newton converges and no segment end turns by more
+// than largest_turn_rad in it nor lies farther than largest_surprise_rad from where the last two steps pointed. Beside
+// a buckling or turning point the branches lie too close to be told apart by their distance, but the sign of the
+// equations' determinant differs from one to the next: a step that changes it is shortened as well, or one that leads
+// on to where it vanishes (scene/branch_watch.h). Where the loads have an energy one that ends unstable is shortened as
+// well, but passes below smallest_bifurcation_step if its symmetry can hold the rod there: in the plane, whose
+// determinant is that of motions in it alone, and on the axis (a column loaded exactly on its axis stays straight),
+// where none is watched. So the answer is the equilibrium that the rod reaches when its loads grow together from zero;
+// a snap-through ends in load_step_too_small.
+#pragma once
+
+#include "fam/shooting.h"
+#include "fam/stability.h"
+
+#include "scene/branch_watch.h"
+#include "scene/equilibrium.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fam {
+
+// Growing the load ends in work_limit after this many Newton steps, or arcs marched, or most_passes times the rod's
+// arcs, if that is more. The random scenes that are solved need up to 900 steps and 250 000 arcs.
+constexpr int most_newton_steps = 3000;
+constexpr long long most_arcs_marched = 600'000;
+
+template <int D>
+class LoadGrowth {
+ public:
+  // Allocates all that growing the load takes.
+  explicit LoadGrowth(const Shooting<D>& shooting);
+
+  // From no load to the full load. converged, load_step_too_small, not_converged, work_limit or tendon_collapsed.
+  scene::Status run(Shooting<D>& shooting);
+  // Why not converged.
+  std::string message() const;
+
+  int load_steps() const { return load_steps_; }
+  void take_over(const LoadGrowth& fewer_arcs) { load_steps_ = fewer_arcs.load_steps_; }
+
+ private:
+  using Nodes = std::vector<SectionState<D>>;
+
+  scene::Status grow(Shooting<D>& shooting);
+  void start_watch(const Shooting<D>& shooting);
+  void predict(const Shooting<D>& shooting, double factor);
+  std::optional<double> try_step(Shooting<D>& shooting, double to);
+  bool stays_on_branch(Shooting<D>& shooting, double step);
+  bool gives_up(const Shooting<D>& shooting, double step);
+
+  Nodes start_, guess_;  // of a step
+  Nodes previous_;       // at the last load but one
+  double load_factor_ = 0, previous_factor_ = 0, first_step_ = 1;
+  scene::BranchWatch branch_;
+  bool watches_determinant_ = false;
+  bool watches_stability_ = false;  // the loads have an energy, and the rod was stable so far
+  bool may_fall_ = false;           // where its symmetry can hold it
+  std::optional<StabilityJudge<D>> judge_;
+  int load_steps_ = 0;
+  struct {
+    scene::Status status = scene::Status::converged;
+    double smallest_step = 0;  // where steps fell below it
+    int newton_steps = 0;      // where the work was used up
+  } end_;
+};
+
+}  // namespace fam

@@ -1,0 +1,102 @@
+#include "fam/load_length.h"
+
+#include <algorithm>
+
+namespace fam {
+
+using scene::Span;
+
+namespace {
+
+// Strain k of an arc that turns by k h, and the moment m = K (k - k0) - tendons' of its section.
+struct ArcMoment {
+  Vector3d strain_per_mm, moment_Nmm;
+  Vector3d stiffness_Nmm2;
+  double scale;  // of m x k
+
+  ArcMoment(const scene::Span& span, const Vector3d& turn_rad, double h_mm)
+      : strain_per_mm(turn_rad / h_mm),
+        stiffness_Nmm2(span.stiffness.torsion_Nmm2, span.stiffness.bending_Nmm2[0], span.stiffness.bending_Nmm2[1]) {
+    const Vector3d elastic_Nmm = stiffness_Nmm2.cwiseProduct(strain_per_mm - span.rest_curvature_per_mm);
+    const Vector3d tendons_Nmm = straight_tendons(span).moment_Nmm;
+    moment_Nmm = elastic_Nmm - tendons_Nmm;
+    scale = (elastic_Nmm.norm() + tendons_Nmm.norm()) * strain_per_mm.norm();
+  }
+
+  bool is_steady() const { return moment_Nmm.cross(strain_per_mm).norm() <= 1e-12 * scale; }
+
+  double rate_per_mm() const {
+    Matrix3d slope;  // its trace is 0
+    for (int i = 0; i < 3; ++i) {
+      slope.col(i) = (moment_Nmm / stiffness_Nmm2[i] - strain_per_mm).cross(Vector3d::Unit(i));
+    }
+    return std::sqrt(std::abs((slope * slope).trace()) / 2);
+  }
+};
+
+}  // namespace
+
+double least_stiffness_Nmm2(const Span& span) {
+  return std::min(span.stiffness.torsion_Nmm2, span.stiffness.bending_Nmm2.minCoeff());
+}
+
+scene::Wrench straight_tendons(const Span& span) {
+  scene::Wrench wrench;
+  for (const scene::SectionTendon& tendon : span.tendons) {
+    wrench.force_N[0] -= tendon.tension_N;
+    wrench.moment_Nmm -= tendon.tension_N * tendon.arm_S_mm.cross(Eigen::Vector3d::UnitX());
+  }
+  return wrench;
+}
+
+double load_moment_Nmm(const Span& span) {
+  return span.follower_load_S.moment_Nmm.norm() + span.fixed_load_B.moment_Nmm.norm() +
+         span.fixed_force_arms_BS_Nmm.norm();
+}
+
+double spin_rate_per_Nmm2(const Span& span) {
+  Eigen::Vector3d c(span.stiffness.torsion_Nmm2, span.stiffness.bending_Nmm2[0], span.stiffness.bending_Nmm2[1]);
+  c = c.cwiseInverse().eval();
+  std::sort(c.begin(), c.end());
+  return std::sqrt((c[1] - c[0]) * (c[2] - c[1]));
+}
+
+double linear_compliance_per_N(const Span& span) {
+  const double axial = span.stiffness.axial_N ? 1 / *span.stiffness.axial_N : 0;
+  return span.stiffness.shear_N ? std::max(axial, 1 / span.stiffness.shear_N->minCoeff()) : axial;
+}
+
+double largest_load_length(std::span<const Span> spans, std::span<const int> arcs_per_span) {
+  double largest = 0;
+  walk_from_tip(spans, OneEach{}, [&](const LoadedCell& cell) {
+    const double length_mm = cell.length_mm / arcs_per_span[cell.span_index];
+    largest = std::max(largest, length_mm * std::sqrt(cell.force_N / least_stiffness_Nmm2(cell.span)));
+  });
+  return largest;
+}
+
+template <int D>
+double largest_swing_rad(std::span<const Span> spans, std::span<const int> arcs_per_span,
+                         std::span<const BasicArc<D>> arcs) {
+  const bool free_of_force = largest_load_length(spans, arcs_per_span) == 0;
+  if (free_of_force && D == 2) return 0;
+  auto arc = arcs.begin();
+  double largest = 0;
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    const double length_mm = spans[i].length_mm() / arcs_per_span[i];
+    for (int k = 0; k < arcs_per_span[i]; ++k, ++arc) {
+      if constexpr (D == 3) {
+        const ArcMoment state(spans[i], arc->screw.rotation, length_mm);
+        if (free_of_force && state.is_steady()) continue;
+        largest = std::max(largest, length_mm * state.rate_per_mm());
+      }
+      largest = std::max(largest, arc->screw.rotation.norm());
+    }
+  }
+  return largest;
+}
+
+template double largest_swing_rad(std::span<const Span>, std::span<const int>, std::span<const BasicArc<2>>);
+template double largest_swing_rad(std::span<const Span>, std::span<const int>, std::span<const BasicArc<3>>);
+
+}  // namespace fam

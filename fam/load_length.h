@@ -1,0 +1,81 @@
+// What the loads can do to a rod at most, read off its spans on one walk from the tip to the clamp.
+//
+// The load length of a stretch is its length over that which the loads themselves have: int sqrt(force / EI) ds, force
+// the sum of the sizes of all beyond. A change at its tip side grows like its exponential towards the clamp. In space a
+// moment M about the axis of middle stiffness adds int M sqrt((c2 - c1)(c3 - c2)) ds, with the compliances 1/GJ,
+// 1/EI_y, 1/EI_z in order: the rate of Euler's unstable spin, at which the direction of the moment goes astray.
+#pragma once
+
+#include "fam/arc.h"
+
+#include "scene/span.h"
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace fam {
+
+// The smallest of GJ, EI_y, EI_z.
+double least_stiffness_Nmm2(const scene::Span& span);
+
+// The larger of 1/EA and 1/kGA; 0 where the section neither stretches nor shears.
+double linear_compliance_per_N(const scene::Span& span);
+
+// The rate of Euler's unstable spin per moment: sqrt((c2 - c1)(c3 - c2)).
+double spin_rate_per_Nmm2(const scene::Span& span);
+
+// The pulls of tendons along e_x, as the internal force -T and moment -r x T e_x that they leave to the rod (section
+// frame).
+scene::Wrench straight_tendons(const scene::Span& span);
+
+// Bound on the moments of the point loads at the span's end.
+double load_moment_Nmm(const scene::Span& span);
+
+// A cell of a span, one of those that the span is cut into, as the walk meets it.
+struct LoadedCell {
+  std::size_t span_index;
+  const scene::Span& span;
+  int cell;  // of all, from the clamp
+  double length_mm;
+  double force_N, moment_Nmm;  // sizes of the forces, and of the moments of point loads, on the cell and beyond
+
+  double load_length(double stiffness_Nmm2, bool by_moments) const {
+    return length_mm * (std::sqrt(force_N / stiffness_Nmm2) + (by_moments ? moment_Nmm * spin_rate_per_Nmm2(span) : 0));
+  }
+};
+
+// Calls visit(cell) from the tip to the clamp; cells_per_span[i] cells of span i.
+template <class Cells, class Visit>
+void walk_from_tip(std::span<const scene::Span> spans, const Cells& cells_per_span, Visit&& visit) {
+  int cell = 0;
+  for (std::size_t i = 0; i < spans.size(); ++i) cell += cells_per_span[i];
+  double force_N = 0, moment_Nmm = 0;
+  for (std::size_t i = spans.size(); i-- > 0;) {
+    const scene::Span& span = spans[i];
+    force_N += span.follower_load_S.force_N.norm() + span.fixed_load_B.force_N.norm();
+    moment_Nmm += load_moment_Nmm(span);
+    const double per_mm = span.follower_force_S_N_per_mm.norm() + span.fixed_force_B_N_per_mm.norm();
+    const double length_mm = span.length_mm() / cells_per_span[i];
+    for (int k = 0; k < cells_per_span[i]; ++k) {
+      force_N += per_mm * length_mm;
+      visit(LoadedCell{i, span, --cell, length_mm, force_N, moment_Nmm});
+    }
+  }
+}
+struct OneEach {
+  int operator[](std::size_t) const { return 1; }
+};
+
+// The largest load length by forces of an arc, with the least stiffness of its span.
+double largest_load_length(std::span<const scene::Span> spans, std::span<const int> arcs_per_span);
+
+// How far the solved arcs swing, the largest of clamp to tip: the turn of one, or in space what its moment m grows or
+// swings by about the solution, if that is more: sqrt(|tr J^2| / 2) h, with J the derivative of m x k (m' = m x k, k
+// the strain) with respect to m. Arcs that no force acts on are exact where m lies along k, and in the plane always,
+// and do not count.
+template <int D>
+double largest_swing_rad(std::span<const scene::Span> spans, std::span<const int> arcs_per_span,
+                         std::span<const BasicArc<D>> arcs);
+
+}  // namespace fam

@@ -1,0 +1,28 @@
+// What a solve is asked for.
+#pragma once
+
+#include "fam/law.h"
+#include "fam/published_arc.h"
+
+#include "scene/rod_model.h"
+
+namespace fam {
+
+constexpr int max_arcs = 1'000'000;
+
+struct Options {
+  Law law = Law::automatic;                         // automatic: sixth_order
+  RodModel model = RodModel::automatic;             // automatic: Kirchhoff unless the scene stretches or shears visibly
+  TwistOrder twist_order = TwistOrder::bend_twist;  // of the published law
+
+  // Number of arcs, 1..max_arcs; 0: as many as the tolerance asks for. Each span between section changes and loads
+  // gets at least one, whatever is asked for.
+  int arcs = 0;
+  // Largest error wanted of any place along the rod, mm; 0: 1e-3 of its length. Used only where arcs = 0.
+  double tolerance_mm = 0;
+
+  // With a fixed number of arcs the error estimate takes a second march of twice as many; false leaves it out (0).
+  bool estimate_error = true;
+};
+
+}  // namespace fam

@@ -1,0 +1,287 @@
+#include "fam/shooting.h"
+
+#include "fam/load_length.h"
+#include "fam/rotation.h"
+#include "scene/span_facts.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fam {
+
+template <int D>
+Shooting<D>::Shooting(LoadedRod<D> rod, double newton_tolerance)
+    : rod_(std::move(rod)),
+      newton_tolerance_(newton_tolerance),
+      length_mm_(rod_.spans().back().end_mm),
+      least_stiffness_Nmm2_(least_stiffness_Nmm2(rod_.spans().front())) {
+  for (const scene::Span& span : rod_.spans()) {
+    least_stiffness_Nmm2_ = std::min(least_stiffness_Nmm2_, least_stiffness_Nmm2(span));
+  }
+  cut_into_segments();
+  if (one_equilibrium() && rod_.arc_count() >= 4 * static_cast<int>(rod_.spans().size())) prepare_few_arcs();
+}
+
+template <int D>
+bool Shooting<D>::one_equilibrium() const {
+  return bounds_.load_length * bounds_.load_length <= unique_load_length_squared &&
+         bounds_.turn_rad <= unique_turn_rad && bounds_.strain <= unique_strain;
+}
+
+template <int D>
+void Shooting<D>::cut_into_segments() {
+  const bool planar = scene::plane_direction(rod_.spans()).has_value();
+  double since_cut = 0;
+  int end_arc = rod_.arc_count();
+  walk_from_tip(rod_.spans(), rod_.arcs_per_span(), [&](const LoadedCell& arc) {
+    const double least_Nmm2 = least_stiffness_Nmm2(arc.span);
+    const double load_length =
+        arc.load_length(planar ? arc.span.stiffness.bending_Nmm2.minCoeff() : least_Nmm2, D == 3);
+    const scene::Wrench tendons = straight_tendons(arc.span);
+    bounds_.load_length += load_length;
+    bounds_.turn_rad += arc.length_mm * arc.moment_Nmm / least_Nmm2;
+    if (D == 3) {  // in the plane bent rods are as good as straight ones
+      bounds_.turn_rad +=
+          arc.length_mm * (arc.span.rest_curvature_per_mm.norm() + tendons.moment_Nmm.norm() / least_Nmm2);
+    }
+    if (rod_.model() == RodModel::reissner) {
+      const double force_N = arc.force_N + tendons.force_N.norm();
+      bounds_.strain = std::max(bounds_.strain, force_N * linear_compliance_per_N(arc.span));
+    }
+    if (since_cut > 0 && since_cut + load_length > segment_load_length) {
+      segments_.push_back({arc.cell + 1, end_arc});
+      end_arc = arc.cell + 1;
+      since_cut = 0;
+    }
+    since_cut += load_length;
+  });
+  segments_.push_back({0, end_arc});
+  std::reverse(segments_.begin(), segments_.end());
+  nodes_.resize(segments_.size());
+  if (segments_.size() > 1) system_.resize(unknowns * static_cast<int>(segments_.size()) - rotations - D);
+}
+
+template <int D>
+void Shooting<D>::prepare_few_arcs() {
+  std::vector<int> few = rod_.arcs_per_span();
+  for (int& count : few) count = std::max(1, count / 4);
+  few_arcs_ = std::make_unique<Shooting>(LoadedRod<D>(rod_.spans(), few, rod_.law(), rod_.model()), 1e-3);
+}
+
+template <int D>
+void Shooting<D>::forget_work() {
+  newton_steps_ = 0;
+  rod_.forget_collapse();
+  if (few_arcs_) few_arcs_->forget_work();
+}
+
+// March without load from a tip turned so that the clamp has R = I.
+template <int D>
+void Shooting<D>::start_unloaded() {
+  set_load(0);
+  Node tip{Rotation::Identity(), {}};
+  Node clamp = tip;
+  rod_.march({0, rod_.arc_count()}, clamp);
+  tip.rotation_SB = clamp.rotation_SB.transpose();
+  for (std::size_t k = segments_.size(); k-- > 0;) {
+    nodes_[k] = tip;
+    rod_.march(segments_[k], tip);
+  }
+}
+
+// A node with derivatives in the directions of its N unknowns.
+template <int D>
+template <int N>
+SectionState<D, Dual<N>> Shooting<D>::varied(const Node& node) const {
+  using Number = Dual<N>;
+  SectionState<D, Number> state{
+      node.rotation_SB.template cast<Number>(),
+      {node.wrench.force_N.template cast<Number>(), node.wrench.moment_Nmm.template cast<Number>()}};
+  for (int i = 0; i < rotations; ++i) {
+    for (int axis = 0; axis < D; ++axis) {  // turning the section by e_i turns the base axes in it by -e_i
+      const Vector<double, D> slope =
+          -cross(Angular<double, D>(Angular<double, D>::Unit(i)), Vector<double, D>(node.rotation_SB.col(axis)));
+      for (int row = 0; row < D; ++row) state.rotation_SB(row, axis).slope[i] = slope[row];
+    }
+  }
+  if constexpr (N == unknowns) {
+    for (int i = 0; i < D; ++i) state.wrench.force_N[i].slope[rotations + i] = force_unit();
+    for (int i = 0; i < rotations; ++i) state.wrench.moment_Nmm[i].slope[rotations + D + i] = moment_unit();
+  }
+  return state;
+}
+
+// Residual and derivatives of segment k with respect to the N unknowns of its node: the tip's rotations, or all.
+template <int D>
+template <int N>
+void Shooting<D>::evaluate_segment(std::size_t k, SegmentEquations& equations) const {
+  using Number = Dual<N>;
+  SectionState<D, Number> state = varied<N>(nodes_[k]);
+  rod_.march(segments_[k], state);
+  const Rotation target_SB = k > 0 ? nodes_[k - 1].rotation_SB : Rotation::Identity();
+  const Eigen::Matrix<Number, D, D> mismatch = state.rotation_SB * target_SB.transpose().template cast<Number>();
+  Eigen::Matrix<Number, unknowns, 1> residual;
+  residual << sine_vector(mismatch), state.wrench.force_N, state.wrench.moment_Nmm;
+  if (k > 0) {
+    residual.template segment<D>(rotations) -= nodes_[k - 1].wrench.force_N.template cast<Number>();
+    residual.template tail<rotations>() -= nodes_[k - 1].wrench.moment_Nmm.template cast<Number>();
+  }
+  Rotation values;
+  for (int i = 0; i < D * D; ++i) values(i) = mismatch(i).value;
+  equations.mismatch_is_small = is_small<D>(values);
+  if constexpr (D == 3) equations.mismatch_slope = 0.5 * (values.trace() * Rotation::Identity() - values.transpose());
+  else equations.mismatch_slope(0, 0) = 0.5 * values.trace();
+  for (int i = 0; i < unknowns; ++i) {
+    const double unit = i < rotations ? 1 : i < rotations + D ? force_unit() : moment_unit();
+    equations.residual[i] = residual[i].value / unit;
+    equations.arrival.row(i).template head<N>() = residual[i].slope.matrix().transpose() / unit;
+  }
+}
+
+// Moves the nodes; the largest change of an unknown.
+template <int D>
+double Shooting<D>::apply(const Eigen::VectorXd& step) {
+  double largest_turn = 0;
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    largest_turn = std::max(largest_turn, step.segment<rotations>(static_cast<Eigen::Index>(unknowns * k)).norm());
+  }
+  const double shorten = largest_turn > largest_newton_turn_rad ? largest_newton_turn_rad / largest_turn : 1;
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(unknowns * k);
+    nodes_[k].rotation_SB = turned(nodes_[k].rotation_SB, Angular<double, D>(shorten * step.segment<rotations>(at)));
+    if (k + 1 == nodes_.size()) break;
+    nodes_[k].wrench.force_N += shorten * force_unit() * step.segment<D>(at + rotations);
+    nodes_[k].wrench.moment_Nmm += shorten * moment_unit() * step.segment<rotations>(at + rotations + D);
+  }
+  return step.cwiseAbs().maxCoeff();
+}
+
+// One segment: the tip's rotation, on the stack. Derivatives are fresh while the steps are long, and after that mended
+// by Broyden's secant update. slope_ holds them between calls, `fresh_slope` says whether it does at the start.
+template <int D>
+bool Shooting<D>::newton_one_segment(bool fresh_slope, double tolerance) {
+  SegmentEquations equations;
+  Angular<double, D> step = Angular<double, D>::Zero();
+  Angular<double, D> last_residual = step;
+  double last = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
+    ++newton_steps_;
+    Angular<double, D> residual;
+    if (fresh_slope) {
+      Node state = nodes_[0];
+      rod_.march({0, rod_.arc_count()}, state);
+      residual = sine_vector<double>(state.rotation_SB);
+      equations.mismatch_is_small = is_small<D>(state.rotation_SB);
+      if (std::isfinite(last)) slope_ += (residual - last_residual - slope_ * step) * step.transpose() / (last * last);
+    } else {
+      evaluate_segment<rotations>(0, equations);
+      residual = equations.residual.template head<rotations>();
+      slope_ = equations.arrival.template topLeftCorner<rotations, rotations>();
+    }
+    last_residual = residual;
+    step = -slope_.inverse() * residual;
+    const double size = step.norm();
+    if (!std::isfinite(size)) return false;
+    if (size > largest_newton_turn_rad) step *= largest_newton_turn_rad / size;
+    nodes_[0].rotation_SB = turned(nodes_[0].rotation_SB, step);
+    // The next step would be smaller by what this one was, or squared after fresh derivatives.
+    const double shrinkage = std::isfinite(last) ? std::min(size / last, 0.1) : 0.1;
+    const double next = fresh_slope ? size * shrinkage : newton_curvature * size * size;
+    if (next <= tolerance) return equations.mismatch_is_small;
+    fresh_slope = size < 0.4 && (!fresh_slope || size < 0.5 * last);
+    last = size;
+  }
+  return false;
+}
+
+// Writes segment k into the system. Columns: node k at k times `unknowns`; the tip's, the last, has its rotations
+// alone. Rows: the clamp's rotations, then all for each segment k > 0.
+template <int D>
+void Shooting<D>::assemble(int k, const SegmentEquations& equations) {
+  const bool tip = k + 1 == static_cast<int>(segments_.size());
+  const int column = unknowns * k;
+  const int before = column - unknowns;
+  const int row = k > 0 ? column - rotations - D : 0;
+  for (int i = 0; i < (k > 0 ? unknowns : rotations); ++i) {
+    system_.right()[row + i] = -equations.residual[i];
+    for (int j = 0; j < (tip ? rotations : unknowns); ++j) system_(row + i, column + j) = equations.arrival(i, j);
+    if (k == 0) continue;
+    if (i >= rotations) system_(row + i, before + i) = -1;
+    for (int j = 0; i < rotations && j < rotations; ++j) {
+      system_(row + i, before + j) = equations.mismatch_slope(i, j);
+    }
+  }
+}
+
+// All segments together.
+template <int D>
+bool Shooting<D>::newton_segments(double tolerance) {
+  const auto count = static_cast<int>(segments_.size());
+  SegmentEquations equations;
+  for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
+    ++newton_steps_;
+    system_.set_zero();
+    bool small = true;
+    for (int k = 0; k < count; ++k) {
+      if (k + 1 == count) evaluate_segment<rotations>(static_cast<std::size_t>(k), equations);
+      else evaluate_segment<unknowns>(static_cast<std::size_t>(k), equations);
+      small = small && equations.mismatch_is_small;
+      assemble(k, equations);
+    }
+    if (!system_.right().allFinite() || !system_.solve() || !system_.right().allFinite()) return false;
+    const double size = apply(system_.right());
+    if (newton_curvature * size * size <= tolerance) return small;
+  }
+  return false;
+}
+
+template <int D>
+bool Shooting<D>::newton(double tolerance) {
+  return segments_.size() == 1 ? newton_one_segment(false, tolerance) : newton_segments(tolerance);
+}
+
+template <int D>
+bool Shooting<D>::solve_at_once() {
+  if (few_arcs_ && few_arcs_->segments_.size() == 1 && few_arcs_->solve_at_once()) {
+    set_load(1);
+    nodes_ = few_arcs_->nodes_;
+    slope_ = few_arcs_->slope_;
+    newton_steps_ += few_arcs_->newton_steps_;
+    return newton_one_segment(true, newton_tolerance_);
+  }
+  start_unloaded();
+  set_load(1);
+  return newton(newton_tolerance_);
+}
+
+template <int D>
+bool Shooting<D>::solve_from(const Shooting& fewer) {
+  const auto here = [&](int arc) {
+    return static_cast<int>(static_cast<long long>(arc) * rod_.arc_count() / fewer.rod_.arc_count());
+  };
+  segments_ = fewer.segments_;
+  for (ArcRange& segment : segments_) segment = {here(segment.first_arc), here(segment.end_arc)};
+  nodes_ = fewer.nodes_;
+  newton_steps_ = fewer.newton_steps_;
+  if (segments_.size() > 1) system_.resize(unknowns * static_cast<int>(segments_.size()) - rotations - D);
+  set_load(1);
+  return newton(newton_tolerance_);
+}
+
+template <int D>
+scene::Determinant Shooting<D>::determinant(bool exact) const {
+  if (segments_.size() > 1) return {system_.log_determinant(), system_.determinant_is_negative()};
+  SegmentEquations equations;
+  if (exact) evaluate_segment<rotations>(0, equations);
+  const double determinant =
+      (exact ? equations.arrival.template topLeftCorner<rotations, rotations>().eval() : slope_).determinant();
+  return {std::log(std::abs(determinant)), determinant < 0};
+}
+
+template class Shooting<2>;
+template class Shooting<3>;
+
+}  // namespace fam

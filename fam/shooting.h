@@ -1,0 +1,118 @@
+// Shooting from the tip to the clamp: the equations of a rod whose loads have components in the base frame.
+//
+// Fixed loads have known components in the section frame only once the rod's rotation is known, so the march starts
+// from a guessed tip rotation and must arrive at the clamp with R = I. Long marches are ill-conditioned: a change at
+// the tip grows like exp(w) towards the clamp, w the load length (load_length.h). So the rod is cut into segments of
+// w <= segment_load_length, the pose and wrench at their ends are unknowns too, and all are solved for together
+// (multiple shooting; 3 unknowns with one segment, 9 more with each further one; in the plane 1 and 4; cost linear in
+// the arcs and the segments).
+#pragma once
+
+#include "fam/band_solver.h"
+#include "fam/loaded_rod.h"
+
+#include "scene/branch_watch.h"
+
+#include <memory>
+#include <vector>
+
+namespace fam {
+
+constexpr double segment_load_length = 1.6;      // chosen, not measured
+constexpr double largest_newton_turn_rad = 0.5;  // of a node in a step, which is shortened beyond; chosen, not measured
+constexpr int max_newton_steps = 20;
+// Newton ends where the next step is expected below the tolerance: rotations in rad, moments in EI/L, forces in EI/L^2.
+// The expectation is newton_curvature times the step squared after fresh derivatives, else the step times the last
+// shrinkage. Chosen, not measured.
+constexpr double newton_curvature = 30;
+constexpr double tightest_newton_tolerance = 1e-13;  // some hundred round-offs of a rotation
+
+// A rod under fixed forces has one equilibrium while its energy is convex: up to a load length of pi/2, its
+// square 2.47, with the least of EI and GJ (EI in planar scenes). Turns and strains shift that; their limits are
+// chosen, not measured.
+constexpr double unique_load_length_squared = 2.4;
+constexpr double unique_turn_rad = 0.8;
+constexpr double unique_strain = 0.1;
+
+// What the full load can do to a rod at most.
+struct LoadBounds {
+  double load_length = 0;  // of the whole rod
+  double turn_rad = 0;     // by moments, and in space by rest curvature and tendons
+  double strain = 0;       // stretch and shear
+};
+
+template <int D>
+class Shooting {
+ public:
+  using Node = SectionState<D>;
+  using Rotation = Eigen::Matrix<double, D, D>;
+
+  // Allocates all it needs.
+  Shooting(LoadedRod<D> rod, double newton_tolerance);
+
+  const LoadedRod<D>& rod() const { return rod_; }
+  const LoadBounds& bounds() const { return bounds_; }
+  // The loads are too small for a second equilibrium; then the one found is stable.
+  bool one_equilibrium() const;
+  double newton_tolerance() const { return newton_tolerance_; }
+  int newton_steps() const { return newton_steps_; }  // since forget_work()
+  void forget_work();
+
+  void set_load(double factor) { rod_.set_load(factor); }
+  // No load: the rest shape.
+  void start_unloaded();
+  // From the nodes as they are to those of the present load.
+  bool newton(double tolerance);
+  // The full load from the rest shape; first with a quarter of the arcs, whose derivatives then serve for all.
+  bool solve_at_once();
+  // The full load from the solution of the same spans with fewer arcs, each of which became several.
+  bool solve_from(const Shooting& fewer);
+
+  // Of the equations' derivatives at the solution; exact, or as Newton's method left them.
+  scene::Determinant determinant(bool exact) const;
+
+  // Clamp to tip: the segments, and the state at the distal end of each.
+  const std::vector<ArcRange>& segments() const { return segments_; }
+  const std::vector<Node>& nodes() const { return nodes_; }
+  void set_nodes(const std::vector<Node>& nodes) { nodes_ = nodes; }
+
+ private:
+  static constexpr int rotations = rotations_of(D);
+  static constexpr int unknowns =
+      2 * rotations + D;  // of a node: its rotation, force, moment; the tip's rotation alone
+  // What a segment's march misses at its proximal end (rotation, force, moment, scaled), its derivatives with respect
+  // to the node at the distal end, and that of the rotation with respect to the node arrived at.
+  struct SegmentEquations {
+    Eigen::Matrix<double, unknowns, 1> residual;
+    Eigen::Matrix<double, unknowns, unknowns> arrival;
+    Eigen::Matrix<double, rotations, rotations> mismatch_slope;
+    bool mismatch_is_small;  // a residual of half a turn vanishes too
+  };
+
+  void cut_into_segments();
+  void prepare_few_arcs();
+  template <int N>
+  SectionState<D, Dual<N>> varied(const Node& node) const;
+  template <int N>
+  void evaluate_segment(std::size_t k, SegmentEquations& equations) const;
+  void assemble(int k, const SegmentEquations& equations);
+  bool newton_one_segment(bool fresh_slope, double tolerance);
+  bool newton_segments(double tolerance);
+  double apply(const Eigen::VectorXd& step);
+  double force_unit() const { return least_stiffness_Nmm2_ / (length_mm_ * length_mm_); }
+  double moment_unit() const { return least_stiffness_Nmm2_ / length_mm_; }
+
+  LoadedRod<D> rod_;
+  double newton_tolerance_;
+  double length_mm_;
+  double least_stiffness_Nmm2_;
+  LoadBounds bounds_;
+  std::vector<ArcRange> segments_;
+  std::vector<Node> nodes_;
+  BandSystem<rotations + unknowns - 1, 2 * unknowns - rotations - 1> system_;  // of several segments
+  Eigen::Matrix<double, rotations, rotations> slope_;                          // of one segment
+  std::unique_ptr<Shooting> few_arcs_;  // a quarter of the arcs, where the full load is solved for at once
+  int newton_steps_ = 0;
+};
+
+}  // namespace fam

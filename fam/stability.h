@@ -1,0 +1,56 @@
+// Whether an equilibrium is a minimum of the energy: it is if there is no conjugate point between the tip and the
+// clamp.
+#pragma once
+
+#include "fam/loaded_rod.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace fam {
+
+// Conjugate points between the tip and the clamp, as the arcs show them, and the logarithm of the size of the
+// determinant of the small turns at the clamp over those of the free tip: 0 for the unloaded rod, -infinity where an
+// equilibrium becomes critical.
+struct Stability {
+  int conjugate_points = 0;
+  double log_determinant = 0;
+};
+// Two resolutions of one rod that tell the same: the determinants are closer than a quarter.
+bool agree(const Stability& a, const Stability& b);
+
+// Of the equilibrium under the rod's present load whose segments start at these nodes (clamp to tip, fam/shooting.h).
+// Only for fixed forces, gravity and tendons (the caller's to check).
+Stability stability(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
+                    std::span<const SectionState<3>> nodes);
+
+// Judges a rod along its load without allocating. A planar rod may buckle out of its plane and is judged in space:
+// there its arcs get constants of their own, but nothing is solved for again.
+template <int D>
+class StabilityJudge;
+
+template <>
+class StabilityJudge<3> {
+ public:
+  StabilityJudge(const LoadedRod<3>&, std::size_t) {}
+  Stability operator()(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
+                       std::span<const SectionState<3>> nodes) {
+    return stability(rod, segments, nodes);
+  }
+};
+
+template <>
+class StabilityJudge<2> {
+ public:
+  StabilityJudge(const LoadedRod<2>& rod, std::size_t segments)
+      : in_space_(rod.spans(), rod.arcs_per_span(), rod.law(), rod.model()), nodes_(segments) {}
+  Stability operator()(const LoadedRod<2>& rod, std::span<const ArcRange> segments,
+                       std::span<const SectionState<2>> nodes);
+
+ private:
+  LoadedRod<3> in_space_;
+  std::vector<SectionState<3>> nodes_;
+};
+
+}  // namespace fam

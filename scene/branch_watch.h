@@ -1,0 +1,36 @@
+// Tells by determinants along a growing load whether a step has left the branch of equilibria, and how far the next one
+// may go. A rule without mechanics: each method brings the determinant of its own equations' derivatives.
+#pragma once
+
+namespace scene {
+
+struct Determinant {
+  double log_size = 0;
+  bool negative = false;
+};
+
+class BranchWatch {
+ public:
+  // Whether the determinant has changed its sign since the last load.
+  bool has_left(const Determinant& now) const;
+
+  // From a load near the last: share_of_zero of the way to where the line through the last two determinants meets zero,
+  // infinite if ahead it does not. Beyond it the sign may be the old one again, where two branches part or two roots
+  // lie together.
+  double longest_step(double from_load_factor) const;
+
+  // The branch goes on here.
+  void keep(double load_factor, const Determinant& now);
+
+  const Determinant& last() const { return last_.determinant; }
+
+ private:
+  struct Point {
+    double load_factor = 0;
+    Determinant determinant;
+  };
+  Point last_, before_;
+  int points_ = 0;
+};
+
+}  // namespace scene

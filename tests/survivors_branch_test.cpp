@@ -1,0 +1,176 @@
+// What mutants once survived: branches, stability and load steps of the three methods.
+#include "survivors.h"
+
+#include "studies/scenes/random_scene.h"
+
+namespace {
+
+using namespace survivors;
+
+// A column pressed beyond Euler's load and pushed aside by a follower force, without an energy: the elastica with
+// k = sin(angle/2), K(k) = sqrt(P L^2/EI), whose tip lies at x = (2 E/K - 1) L, 2 k/K L aside; and with an energy, by
+// two small fixed forces that leave no plane of symmetry, the same one, stable.
+void pushed_column(const Method& solve, std::vector<double> times_euler = {1.3, 3.0, 30.0}) {
+  const auto error = [&](double euler_loads, bool conservative, double factor) {
+    double below = 0, above = 1;
+    while (above - below > 1e-15) {
+      const double k = (below + above) / 2;
+      (std::comp_ellint_1(k) < pi / 2 * std::sqrt(euler_loads) ? below : above) = k;
+    }
+    const double K = std::comp_ellint_1(below), x = 2 * std::comp_ellint_2(below) / K - 1, aside = 2 * below / K;
+    const double pressed_N = euler_loads * pi * pi / 4;
+    const double push_N = 1e-6 * pressed_N;
+    const Load first = Force{1, conservative ? Frame::fixed : Frame::follower, {0, push_N, 0}};
+    Scene scene = uniform_rod(1, slender(1, 0.7), {Force{1, Frame::fixed, {-pressed_N, 0, 0}}, first});
+    if (conservative) scene.loads.push_back(Force{0.5, Frame::fixed, {0, 0, 1e-3 * push_N}});
+    const Equilibrium found = solve(support::stiffer(scene, factor));
+    EXPECT_EQ(found.stable, conservative ? std::optional(true) : std::nullopt) << euler_loads;
+    const Vector3d at = tip(found);
+    return std::hypot(at[0] - x, std::hypot(at[1], at[2]) - aside);
+  };
+  for (const double euler_loads : times_euler) {
+    for (const bool conservative : {false, true}) {
+      EXPECT_LT(error(euler_loads, conservative, 1), 5e-5) << euler_loads << conservative;
+      EXPECT_GT(error(euler_loads, conservative, 1.05), 5e-5);
+    }
+  }
+}
+
+TEST(SurvivorsFam, PushedColumn) {
+  pushed_column([](const Scene& scene) { return by_fam(scene, 1e-6); });
+}
+TEST(SurvivorsFem, PushedColumn) {
+  pushed_column([](const Scene& scene) { return by_fem(scene, 24, 2); }, {1.3, 3.0});
+}
+TEST(SurvivorsExact, PushedColumn) {
+  pushed_column([](const Scene& scene) { return by_exact(scene); });
+}
+
+// Random columns beside their buckling loads, on which each method once jumped when it did not look at its determinant:
+// two methods that share no mechanics end on the same branch.
+void same_branch(const Method& solve, const Method& other, const std::vector<std::uint64_t>& seeds) {
+  for (const std::uint64_t seed : seeds) {
+    const Scene scene = studies::random_scene(seed);
+    const double length_mm = scene::length_mm(scene);
+    EXPECT_LT((tip(solve(scene)) - tip(other(scene))).norm(), 1e-3 * length_mm) << seed;
+    const Equilibrium twin = solve(support::stiffer(scene, 1.1));
+    if (!twin.converged()) continue;
+    EXPECT_GT((tip(twin) - tip(other(scene))).norm(), 1e-3 * length_mm) << seed;
+  }
+}
+
+TEST(SurvivorsFam, SameBranch) {
+  same_branch([](const Scene& scene) { return by_fam(scene, 1e-4 * scene::length_mm(scene)); },
+              [](const Scene& scene) { return by_exact(scene, 1e-8); },
+              {131, 202, 100003, 100005, 100015, 100034, 100038});
+}
+TEST(SurvivorsExact, SameBranch) {
+  same_branch([](const Scene& scene) { return by_exact(scene, 1e-8); },
+              [](const Scene& scene) { return by_fam(scene, 1e-4 * scene::length_mm(scene)); },
+              {100003, 100005, 100015, 100034, 100038});
+}
+
+// A column on its axis stays there and is unstable beyond Euler's load, however far beyond.
+void column_on_its_axis(const Method& solve) {
+  for (const double euler_loads : {0.9, 1.1, 5., 9.5, 12., 30.}) {
+    const double pressed_N = euler_loads * pi * pi / 4 * 750 / 1600;
+    const Equilibrium found = solve(uniform_rod(40, slender(750, 500), {Force{40, Frame::fixed, {-pressed_N, 0, 0}}}));
+    EXPECT_LT((tip(found) - Vector3d(40, 0, 0)).norm(), 1e-9);
+    EXPECT_EQ(found.stable, std::optional(euler_loads < 1)) << euler_loads;
+  }
+}
+
+TEST(SurvivorsFam, ColumnOnItsAxis) {
+  column_on_its_axis([](const Scene& scene) { return by_fam(scene, 1e-3); });
+}
+TEST(SurvivorsFem, ColumnOnItsAxis) {
+  column_on_its_axis([](const Scene& scene) { return by_fem(scene); });
+}
+TEST(SurvivorsExact, ColumnOnItsAxis) {
+  column_on_its_axis([](const Scene& scene) { return by_exact(scene); });
+}
+
+// Fixed forces of P at arms a that press on each other across the tip's section, and a small torque M: GJ phi/L = 2 a P
+// sin(phi) + M. As the loads grow the turn goes from 0 towards pi, and not to one of the roots beyond.
+void pressed_across(const Method& solve) {
+  const double a = 2, GJ = 500, L = 40, M = 0.01;
+  for (const double P : {20., 100.}) {
+    double below = 0.1, above = pi;
+    while (above - below > 1e-14) {
+      const double phi = (below + above) / 2;
+      (GJ * phi / L < 2 * a * P * std::sin(phi) + M ? below : above) = phi;
+    }
+    const auto turn = [&](double factor) {
+      std::vector<Load> loads = couple(40, {0, -P, 0}, {a, 0});
+      loads.push_back(Moment{40, Frame::follower, {M, 0, 0}});
+      const Equilibrium found = solve(support::stiffer(uniform_rod(L, slender(750, GJ), loads), factor));
+      EXPECT_LT((tip(found) - Vector3d(40, 0, 0)).norm(), 1e-6) << P;
+      return found.converged() ? twist(found.tip().rotation_BS) : NAN;
+    };
+    EXPECT_NEAR(turn(1), below, 1e-6) << P;
+    EXPECT_GT(std::abs(turn(1.05) - below), 1e-4) << P;
+  }
+}
+
+TEST(SurvivorsFam, PressedAcross) {
+  pressed_across([](const Scene& scene) { return by_fam(scene, 1e-7); });
+}
+TEST(SurvivorsFem, PressedAcross) {
+  pressed_across([](const Scene& scene) { return by_fem(scene, 20, 2); });
+}
+TEST(SurvivorsExact, PressedAcross) {
+  pressed_across([](const Scene& scene) { return by_exact(scene); });
+}
+
+// No energy, no verdict; with one, Prandtl's and Michell's critical load of a strip, 4.0126 sqrt(EI GJ)/L^2 (Timoshenko
+// and Gere), whose stability is a matter of the moments along it.
+TEST(SurvivorsFam, StabilityOfAStrip) {
+  scene::Stiffness wide = slender(1, 1);
+  wide.bending_Nmm2[1] = 1e6;
+  const auto pressed = [&](double load) { return uniform_rod(1, wide, {Force{1, Frame::fixed, {0, load, 0}}}); };
+  const Equilibrium below = by_fam(pressed(0.98 * 4.0126), 1e-4), above = by_fam(pressed(1.02 * 4.0126), 1e-4);
+  EXPECT_EQ(below.stable, std::optional(true));
+  EXPECT_EQ(above.stable, std::optional(false));
+  EXPECT_GT(fact<int>(above, "segments"), 1);
+  Scene turned = pressed(1);
+  turned.loads.push_back(Moment{1, Frame::fixed, {0, 0, 1}});
+  EXPECT_EQ(by_fam(turned, 1e-4).stable, std::nullopt);
+}
+
+// A cantilever bent by a quarter turn under F L^2/EI = 30: guesses that go on as the last step did take few load steps.
+template <class Solve>
+int load_steps(Solve&& solve) {
+  return fact<int>(solve(uniform_rod(1, slender(1, 1), {Force{1, Frame::fixed, {0, 30, 0}}})), "load_steps");
+}
+TEST(SurvivorsFam, FewLoadSteps) {
+  EXPECT_LE(load_steps([](const Scene& scene) { return by_fam(scene, 1e-6); }), 25);
+}
+TEST(SurvivorsFem, FewLoadSteps) {
+  EXPECT_LE(load_steps([](const Scene& scene) { return by_fem(scene); }), 40);
+}
+TEST(SurvivorsExact, FewLoadSteps) {
+  EXPECT_LE(load_steps([](const Scene& scene) { return by_exact(scene); }), 25);
+}
+
+// A column on its axis passes Euler's load in a step no longer than smallest_bifurcation_step = 1e-5, to which halving
+// leads and from which the steps grow again, two- or threefold: at least log3(0.1/1e-5) = 8.4 of them.
+int steps_past_eulers_load(const Method& solve) {
+  return fact<int>(solve(uniform_rod(1, slender(1, 0.7), {Force{1, Frame::fixed, {-1.25 * pi * pi / 4, 0, 0}}})),
+                   "load_steps");
+}
+TEST(SurvivorsFam, EulersLoadIsPassedInAShortStep) {
+  EXPECT_GE(steps_past_eulers_load([](const Scene& scene) { return by_fam(scene, 1e-3); }), 9);
+}
+TEST(SurvivorsExact, EulersLoadIsPassedInAShortStep) {
+  EXPECT_GE(steps_past_eulers_load([](const Scene& scene) { return by_exact(scene); }), 9);
+}
+
+// A strip twisted by ten thousand turns: its steps are a half radian each, and too many.
+TEST(SurvivorsFam, WorkLimitIsAStatus) {
+  const Equilibrium found = by_fam(
+      uniform_rod(1, strip(), {Moment{1, Frame::fixed, {2e4 * pi, 0, 0}}, Force{1, Frame::fixed, {0, 0.1, 0.1}}}),
+      1e-2);
+  EXPECT_EQ(found.status, scene::Status::work_limit) << found.message;
+}
+
+}  // namespace
