@@ -46,8 +46,8 @@ struct Path {
   bool tendon_collapsed = false;  // in the last iteration
   bool watch_stability = false;   // conservative, and stable so far
   scene::Symmetry symmetry = scene::Symmetry::none;
-  double load_size = 0;       // of ScaledRod
-  scene::BranchWatch branch;  // by the determinant of the equations' derivatives
+  double load_size = 0;            // of ScaledRod
+  scene::BranchWatch branch = {};  // by the determinant of the equations' derivatives
 
   Convergence newton(NodeStates& states, double load_factor, double tolerance, int max_iterations) {
     const Convergence result = shooting.newton(states, load_factor, tolerance, max_iterations);

@@ -71,10 +71,12 @@ class LoadedRod {
   mutable bool tendon_collapsed_ = false;
 };
 
-// The step of a law with every call inlined: twice as fast, but for many derivatives minutes to compile.
+// The step of a law with every call inlined: twice as fast, but for many derivatives minutes to compile. Not to be
+// inlined itself: into a caller that is not flattened it would lose its calls' inlining.
 template <class Section, class T, int D>
-FAM_FLATTEN BasicMotion<T, D> flat_step(Law law, const Section& section, const ArcForces<T, D>* distributed,
-                                        BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw) {
+FAM_FLATTEN [[gnu::noinline]] BasicMotion<T, D> flat_step(Law law, const Section& section,
+                                                          const ArcForces<T, D>* distributed, BasicWrench<T, D>& wrench,
+                                                          BasicScrew<T, D>& screw) {
   return law_step(law, section, distributed, wrench, screw);
 }
 
