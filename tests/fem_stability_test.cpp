@@ -1,6 +1,5 @@
 // The stability of equilibria by the finite element tangent: classical critical loads, each from both sides.
 #include "fem_reference/beam_system.h"
-#include "fem_reference/branch_watch.h"
 #include "fem_reference/load_stepping.h"
 #include "fem_reference/solve.h"
 #include "support.h"
@@ -170,19 +169,6 @@ TEST(FemStability, TheDeterminantVanishesAtEulersLoad) {
   EXPECT_EQ(determinant(0.999).negative, stable_sign);
   EXPECT_NE(determinant(1.001).negative, stable_sign);
   EXPECT_NEAR(std::exp(determinant(0.998).log_size - determinant(0.999).log_size), 2, 0.02);
-}
-
-TEST(FemStability, TheDeterminantIsWatchedForASignAndAZero) {
-  fem_reference::BranchWatch watch;
-  EXPECT_FALSE(watch.has_left({0, true}));
-  EXPECT_EQ(watch.load_of_zero(), HUGE_VAL);
-  watch.keep(0, {std::log(4.0), true});
-  watch.keep(0.5, {std::log(3.0), true});
-  EXPECT_NEAR(watch.load_of_zero(), 2, 1e-12);
-  EXPECT_FALSE(watch.has_left({0, true}));
-  EXPECT_TRUE(watch.has_left({0, false}));
-  watch.keep(1, {std::log(5.0), true});
-  EXPECT_EQ(watch.load_of_zero(), HUGE_VAL);
 }
 
 // No energy decides here: the push follows the tip.
