@@ -42,8 +42,8 @@ bool is_converged(double largest_increment, const Residual& residual, double lar
 //   is shorter than a sixteenth of the last, farther than half of what one has turned in it,
 // the last two of which keep Newton from reaching another branch of equilibria, where the residual vanishes as well.
 // Beside a buckling load the branches lie too close for that. So a step is refused too if the tangent's determinant has
-// changed its sign, and no step goes on to where it vanishes by the line through the last two (scene/branch_watch.h). In a
-// planar scene the determinant is that of motions in the plane, and on the axis none is watched: there a rod whose
+// changed its sign, and no step goes on to where it vanishes by the line through the last two (scene/branch_watch.h).
+// In a planar scene the determinant is that of motions in the plane, and on the axis none is watched: there a rod whose
 // symmetry nothing breaks stays on its branch. Where the loads are conservative, a step from a stable equilibrium to
 // one that is not is halved as well, in planar scenes and on the axis down to smallest_bifurcation_step, where it is
 // accepted. Loads that all follow the rod leave it one equilibrium, and nothing to watch.

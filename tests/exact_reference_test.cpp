@@ -34,8 +34,9 @@ TEST(ExactReference, SpatialFollowerLoad) {  // by an independent shooting, 12 d
   expect_tip(rod, wanted, 5e-12, Way::boundary_value);
 }
 
-// By an independent collocation, 4 digits after the point. Its EI = 750 is rounded: the numbers are those of the solid circle
-// d = 6 mm, E = 11.789 MPa, nu = 0.5, EI = 749.98. At EI = 750 exactly the unshearable tip is (29.59999, 24.00873).
+// By an independent collocation, 4 digits after the point. Its EI = 750 is rounded: the numbers are those of the solid
+// circle d = 6 mm, E = 11.789 MPa, nu = 0.5, EI = 749.98. At EI = 750 exactly the unshearable tip is
+// (29.59999, 24.00873).
 TEST(ExactReference, ShearAndStretch) {
   scene::Scene rod{"test", {{40, scene::CircularSection{6, 0, 11.789, 0.5, 0}, Vector3d::Zero()}}, {}};
   rod = tip_force(rod, Frame::follower, {0, 1, 0});
