@@ -91,6 +91,10 @@ bool is_listed(const RandomOutcome& outcome) {
   return fine.count(outcome.outcome) == 0;
 }
 
+bool stopped_the_judge(const RandomOutcome& outcome) {
+  return outcome.method == "exact" && (outcome.outcome == "work limit" || outcome.outcome == "crash");
+}
+
 std::string to_line(const RandomOutcome& o) {
   return fmt::format("{},{},{},{},{:.1e},{:.1e}", o.seed, o.loads, o.method, o.outcome, o.error, o.estimate);
 }

@@ -39,6 +39,9 @@ RandomOutcome second_opinion(std::uint64_t seed);
 // Silent or lost answers, which the results list by seed.
 bool is_listed(const RandomOutcome& outcome);
 
+// The exact reference took more than a scene's time, so that nobody else was asked: one scene without a judge.
+bool stopped_the_judge(const RandomOutcome& outcome);
+
 // One line of text for an outcome and back: seed,loads,method,outcome,error,estimate.
 std::string to_line(const RandomOutcome& outcome);
 RandomOutcome from_line(const std::string& line);

@@ -33,6 +33,7 @@ struct Answered {
 Answered answered(const std::vector<RandomOutcome>& outcomes, const std::string& method) {
   Answered sum;
   for (const RandomOutcome& o : outcomes) {
+    if (method == "fam" && stopped_the_judge(o)) ++sum.asked;
     if (o.method != method) continue;
     ++sum.asked;
     sum.judged += o.outcome != "no judge" && o.outcome != "not converged either";

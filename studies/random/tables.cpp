@@ -167,6 +167,7 @@ Table outcomes_by_method(const std::vector<RandomOutcome>& outcomes) {
   for (const RandomOutcome& o : outcomes) {
     const char* kind = o.seed < first_buckling_seed ? "general" : o.seed < first_family_seed ? "buckling" : "families";
     if (o.method == "fam" || o.method == "fem") ++counts[{kind, o.method}][column_of(o.outcome)];
+    if (stopped_the_judge(o)) ++counts[{kind, "fam"}]["no judge"];
   }
   std::vector<std::string> names = {"scenes", "method", "asked"};
   names.insert(names.end(), columns.begin(), columns.end());
