@@ -100,7 +100,7 @@ std::string Page::fill_text(const std::string& words, const std::string& source)
       shown = !open->holds;
     } else if (name == "/") {
       if (open == nullptr) filler.fail("{{/}} outside a check");
-      page += open->timed ? timed(branch) : branch;
+      page += open->timed ? "<!--t-->" + branch + "<!--/t-->" : branch;  // whatever the branch, one shape
       open = nullptr;
       shown = true;
     } else {
