@@ -1,0 +1,20 @@
+# Installs the built library into a prefix, moves the prefix, builds the user's project against it and runs it.
+set(prefix ${BUILD}/package/prefix)
+set(moved ${BUILD}/package/moved)
+file(REMOVE_RECURSE ${BUILD}/package)
+
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${ARGN}: ${output}")
+  endif()
+  set(output ${output} PARENT_SCOPE)
+endfunction()
+
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+file(RENAME ${prefix} ${moved})
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${BUILD}/package/robot -DCMAKE_PREFIX_PATH=${moved})
+run(${CMAKE_COMMAND} --build ${BUILD}/package/robot)
+run(${BUILD}/package/robot/robot)
+message(STATUS "${output}")
+run(${moved}/bin/fam --version)
