@@ -4,6 +4,7 @@
 #include "studies/compare/error_measures.h"
 #include "studies/compare/matching_digits.h"
 #include "studies/report/provenance.h"
+#include "studies/scenes/cases.h"
 #include "studies/study.h"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ const BenchmarkFamily& family_of(const Benchmark& benchmark, const std::string& 
 }
 
 double size_of(const scene::Load& load) {
-  if (const auto* force = std::get_if<scene::Force>(&load)) return force->value_N.norm();
+  if (const auto* force = as<scene::Force>(load)) return force->value_N.norm();
   return std::get<scene::DistributedForce>(load).value_N_per_mm.norm();
 }
 

@@ -17,4 +17,14 @@ std::vector<std::string> study1_cases();
 std::vector<std::string> study1_cases(bool planar);
 bool is_planar(const std::string& load_case);
 
+// The load as this kind, or null: of a case file, whose loads the study knows.
+template <class Kind>
+const Kind* as(const scene::Load& load) {
+  return std::get_if<Kind>(&load);
+}
+template <class Kind>
+Kind* as(scene::Load& load) {
+  return std::get_if<Kind>(&load);
+}
+
 }  // namespace studies
