@@ -23,6 +23,9 @@ struct Options {
 
   // With a fixed number of arcs the error estimate takes a second march of twice as many; false leaves it out (0).
   bool estimate_error = true;
+
+  // Of a Solver: arcs that memory is taken for, those of the estimate's finer run included, 1..max_arcs.
+  int reserved_arcs = 1024;
 };
 
 }  // namespace fam

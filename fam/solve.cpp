@@ -62,7 +62,7 @@ std::optional<Prepared> prepare(const scene::Scene& scene, const Options& option
   if (!reason.empty()) return std::nullopt;
   std::vector<int> arcs = scene::cells_per_span(spans, options.arcs);
   Choice choice = choose(spans, options, options.tolerance_mm);
-  Solver solver = make_solver(spans, arcs, choice, options);
+  Engine solver = make_engine(spans, arcs, choice, options);
   const std::span<const Span> solved = choice.solved_spans(spans);
   std::vector<Span> solved_spans(solved.begin(), solved.end());
   return Prepared{std::move(solver), std::move(choice), std::move(solved_spans), std::move(arcs)};

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fam/options.h"
-#include "fam/solver.h"
+#include "fam/engine.h"
 
 #include "scene/equilibrium.h"
 #include "scene/scene.h"
@@ -17,7 +17,7 @@ namespace fam {
 //   unsupported        published law with a fixed or distributed load, with shear or EI_y != EI_z
 //   load_step_too_small, work_limit, not_converged   see fam/load_growth.h
 //   arc_not_converged  published law: see fam/published_arc.h; sixth_order with fixed arcs: an arc longer than its
-//                      series can resolve (fam/solver.h)
+//                      series can resolve (fam/engine.h)
 //   tolerance_not_met  estimated error > tolerance with max_arcs arcs
 //   tendon_collapsed   |v + u x r| <= smallest_tendon_stretch somewhere (fam/tendon.h)
 //   not_finite         overflow
@@ -35,7 +35,7 @@ scene::Equilibrium solve(const scene::Scene& scene, const Options& options = {})
 // The solver that options with fixed arcs, law and model describe, with its memory; empty where solve() would end in
 // `unsupported`, with the reason.
 struct Prepared {
-  Solver solver;
+  Engine solver;
   Choice choice;
   std::vector<scene::Span> spans;  // as they are solved, but for a plane's rotation
   std::vector<int> arcs_per_span;

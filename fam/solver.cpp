@@ -1,88 +1,95 @@
 #include "fam/solver.h"
 
-#include "fam/load_length.h"
-#include "fam/shape.h"
-
-#include <algorithm>
+#include <limits>
 
 namespace fam {
+// Provisional: stands in until the kept solver is here.
+struct Solver::Impl {
+  scene::Scene scene;
+  Options options;
+  scene::Equilibrium last;
+  std::vector<double> s_mm;
+  std::vector<scene::Pose> poses;
+  std::vector<scene::Wrench> wrenches;
+};
+Solver::Solver(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Solver::Solver(Solver&&) noexcept = default;
+Solver& Solver::operator=(Solver&&) noexcept = default;
+Solver::~Solver() = default;
+
+std::variant<Solver, Refusal> Solver::make(const scene::Scene& scene, const Options& options) {
+  scene::validate(scene);
+  auto impl = std::make_unique<Impl>();
+  impl->scene = scene;
+  impl->options = options;
+  return Solver(std::move(impl));
+}
 namespace {
-
-using scene::Span;
-using scene::Status;
-
-template <int D>
-Solver solver_in(std::span<const Span> spans, std::span<const int> arcs, const Choice& choice, const Options& options) {
-  if (choice.march) return BasicMarch<D>(spans, arcs, choice.law, choice.rod.model, options.twist_order);
-  // Newton ends a thousandth of the tolerance away, or at round-off where none is given.
-  const double newton_tolerance =
-      std::clamp(1e-3 * options.tolerance_mm / spans.back().end_mm, tightest_newton_tolerance, 1e-6);
-  return BasicBoundaryValue<D>(spans, arcs, choice.law, choice.rod.model, newton_tolerance);
+template <class Kind>
+Kind& as_kind(scene::Scene& scene, std::size_t load) {
+  if (load >= scene.loads.size()) throw scene::SceneError("scene: loads[" + std::to_string(load) + "]: there is none");
+  if (!std::holds_alternative<Kind>(scene.loads[load])) throw scene::SceneError("scene: loads[" + std::to_string(load) + "]: another kind");
+  return std::get<Kind>(scene.loads[load]);
 }
-
-template <int D>
-std::string message_of(const BasicMarch<D>& march, Status status) {
-  const std::string arcs = std::to_string(march.arc_count());
-  if (status == Status::arc_not_converged) {
-    return "the bending angle of arc " + std::to_string(march.failed_arc()) + " of " + arcs +
-           " (from the clamp) was not found; more arcs make each one easier";
+const double nan = std::numeric_limits<double>::quiet_NaN();
+}
+#define SET(name, Kind, field, Type)                       \
+  void Solver::name(std::size_t load, Type value) {        \
+    scene::Scene copy = impl_->scene;                      \
+    as_kind<scene::Kind>(copy, load).field = value;        \
+    scene::validate(copy);                                 \
+    impl_->scene = copy;                                   \
   }
-  if (status == Status::tendon_collapsed)
-    return "a tendon's path has no length somewhere: |v + u x r| = 0, with " + arcs + " arcs";
-  return "a pose or wrench overflowed with " + arcs + " arcs";
+SET(set_force_N, Force, value_N, const Eigen::Vector3d&)
+SET(set_moment_Nmm, Moment, value_Nmm, const Eigen::Vector3d&)
+SET(set_distributed_N_per_mm, DistributedForce, value_N_per_mm, const Eigen::Vector3d&)
+SET(set_acceleration_m_per_s2, Gravity, acceleration_m_per_s2, const Eigen::Vector3d&)
+SET(set_tension_N, Tendon, tension_N, double)
+void Solver::set_at_mm(std::size_t load, double s_mm) { as_kind<scene::Force>(impl_->scene, load).at_mm = s_mm; }
+void Solver::set_rest_curvature_per_mm(std::size_t section, const Eigen::Vector3d& u) {
+  impl_->scene.sections.at(section).rest_curvature_per_mm = u;
 }
-template <int D>
-std::string message_of(const BasicBoundaryValue<D>& problem, Status) {
-  return problem.message() + ", with " + std::to_string(problem.arc_count()) + " arcs";
+const scene::Scene& Solver::scene() const { return impl_->scene; }
+Solver::Outcome Solver::solve(Start) noexcept {
+  scene::Equilibrium now = fam::solve(impl_->scene, impl_->options);
+  if (!now.converged()) return {now.status, 0, 0, "failed"};
+  impl_->last = now;
+  impl_->s_mm.clear(), impl_->poses.clear(), impl_->wrenches.clear();
+  for (const auto& s : now.stations) {
+    impl_->s_mm.push_back(s.s_mm);
+    impl_->poses.push_back(s.X_BS);
+    impl_->wrenches.push_back({s.force_B_N, s.moment_B_Nmm});
+  }
+  return {now.status, 1, 1, ""};
 }
-
-template <int D>
-double load_factor_of(const BasicMarch<D>&) {
-  return 0;
+bool Solver::solved() const noexcept { return !impl_->s_mm.empty(); }
+const scene::Pose& Solver::tip() const { return impl_->poses.back(); }
+scene::Wrench Solver::base_wrench_B() const { return impl_->wrenches.front(); }
+std::span<const double> Solver::s_mm() const { return impl_->s_mm; }
+std::span<const scene::Pose> Solver::poses() const { return impl_->poses; }
+std::span<const scene::Wrench> Solver::wrenches_B() const { return impl_->wrenches; }
+scene::Pose Solver::pose_at(double) const noexcept { return tip(); }
+scene::Wrench Solver::wrench_at(double) const noexcept { return base_wrench_B(); }
+double Solver::error_estimate_mm() { return impl_->last.error_estimate_mm; }
+std::optional<bool> Solver::stable() const { return impl_->last.stable; }
+#define DERIVATIVE(Type, name, ...) \
+  Solver::Type Solver::name(__VA_ARGS__) const noexcept { return Type::Constant(nan); }
+DERIVATIVE(Matrix6, compliance, double)
+DERIVATIVE(Matrix63, by_load, std::size_t, double)
+DERIVATIVE(Matrix63, by_rest_curvature, std::size_t, double)
+DERIVATIVE(Matrix63, by_stiffness, std::size_t, double)
+DERIVATIVE(Vector6, by_place, std::size_t, double)
+DERIVATIVE(Matrix6, strain_compliance, double)
+DERIVATIVE(Matrix63, strain_by_load, std::size_t, double)
+DERIVATIVE(Matrix63, strain_by_rest_curvature, std::size_t, double)
+DERIVATIVE(Matrix63, strain_by_stiffness, std::size_t, double)
+DERIVATIVE(Vector6, strain_by_place, std::size_t, double)
+DERIVATIVE(Matrix6, wrench_compliance, double)
+DERIVATIVE(Matrix63, wrench_by_load, std::size_t, double)
+DERIVATIVE(Matrix63, wrench_by_rest_curvature, std::size_t, double)
+DERIVATIVE(Matrix63, wrench_by_stiffness, std::size_t, double)
+DERIVATIVE(Vector6, wrench_by_place, std::size_t, double)
+void Solver::jacobian(std::span<const double>, std::span<const Parameter>, Eigen::Ref<Eigen::MatrixXd> result) const noexcept {
+  result.setConstant(nan);
 }
-template <int D>
-double load_factor_of(const BasicBoundaryValue<D>& problem) {
-  return problem.load_factor();
-}
-
-template <int D>
-double largest_swing_of(const SolvedRod<D>& rod, std::span<const Span> spans, std::span<const int> arcs_per_span) {
-  return largest_swing_rad<D>(spans, arcs_per_span, rod.arcs);
-}
-
-}  // namespace
-
-Solver make_solver(std::span<const Span> spans, std::span<const int> arcs_per_span, const Choice& choice,
-                   const Options& options) {
-  if (choice.plane) return solver_in<2>(choice.plane->spans, arcs_per_span, choice, options);
-  return solver_in<3>(choice.solved_spans(spans), arcs_per_span, choice, options);
-}
-
-int arc_count(const Solver& solver) {
-  return std::visit([](const auto& s) { return s.arc_count(); }, solver);
-}
-
-bool is_march(const Solver& solver) {
-  return std::holds_alternative<March>(solver) || std::holds_alternative<BasicMarch<2>>(solver);
-}
-
-double load_factor(const Solver& solver) {
-  return std::visit([](const auto& s) { return load_factor_of(s); }, solver);
-}
-
-std::string failure_message(const Solver& solver, Status status) {
-  return std::visit([&](const auto& s) { return message_of(s, status); }, solver);
-}
-
-ArcExtent extent_of_arcs(const Solver& solver, std::span<const Span> spans, std::span<const int> arcs_per_span) {
-  return {largest_load_length(spans, arcs_per_span),
-          std::visit([&](const auto& s) { return largest_swing_of(s.solved(), spans, arcs_per_span); }, solver)};
-}
-
-Status verdict(const Solver& solver, Law law, const ArcExtent& extent) {
-  if (facts_of(law).by_series && !extent.resolved()) return Status::arc_not_converged;
-  const bool collapsed = std::visit([](const auto& s) { return any_tendon_collapsed(s.solved()); }, solver);
-  return collapsed ? Status::tendon_collapsed : Status::converged;
-}
-
 }  // namespace fam

@@ -17,12 +17,12 @@ using scene::Span;
 using scene::Status;
 
 template <int D>
-Status run_solver(BasicMarch<D>& march, const Solver*) {
+Status run_solver(BasicMarch<D>& march, const Engine*) {
   march.keep_wrenches();
   return march.run();
 }
 template <int D>
-Status run_solver(BasicBoundaryValue<D>& problem, const Solver* fewer_arcs) {
+Status run_solver(BasicBoundaryValue<D>& problem, const Engine* fewer_arcs) {
   return fewer_arcs ? problem.run_from(std::get<BasicBoundaryValue<D>>(*fewer_arcs)) : problem.run();
 }
 
@@ -146,8 +146,8 @@ class Ladder {
 }  // namespace
 
 Run::Run(const Task& task, std::vector<int> arcs_per_span, const Run* fewer_arcs)
-    : solver(make_solver(task.spans, arcs_per_span, task.choice, task.options)), arcs(std::move(arcs_per_span)) {
-  const Solver* from = fewer_arcs && fewer_arcs->status == Status::converged ? &fewer_arcs->solver : nullptr;
+    : solver(make_engine(task.spans, arcs_per_span, task.choice, task.options)), arcs(std::move(arcs_per_span)) {
+  const Engine* from = fewer_arcs && fewer_arcs->status == Status::converged ? &fewer_arcs->solver : nullptr;
   status = std::visit([&](auto& s) { return run_solver(s, from); }, solver);
 }
 

@@ -7,7 +7,7 @@
 // added.
 #pragma once
 
-#include "fam/solver.h"
+#include "fam/engine.h"
 
 #include "scene/equilibrium.h"
 #include "scene/scene.h"
@@ -28,7 +28,7 @@ struct Task {
 
 // A march or a boundary value problem, solved.
 struct Run {
-  Solver solver;
+  Engine solver;
   std::vector<int> arcs;  // of each span
   scene::Status status;
 

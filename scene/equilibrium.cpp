@@ -17,6 +17,7 @@ const char* name(Status status) {
     case Status::load_step_too_small: return "load_step_too_small";
     case Status::not_converged: return "not_converged";
     case Status::work_limit: return "work_limit";
+    case Status::limit_point: return "limit_point";
     case Status::tendon_collapsed: return "tendon_collapsed";
     case Status::not_finite: return "not_finite";
   }

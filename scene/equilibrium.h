@@ -35,6 +35,7 @@ enum class Status {
   load_step_too_small,  // the load step was halved below the method's smallest
   not_converged,        // an iteration ended above its tolerance; the message gives both
   work_limit,           // the method's bound on load steps, marched arcs or intervals was used up
+  limit_point,          // the load path from the last solution ends in a fold, where it would snap (fam/solver.h)
   tendon_collapsed,     // a tendon's path has no length somewhere, |v + u x r| = 0: its direction is not defined
   not_finite            // a pose or a wrench is NaN or infinite
 };

@@ -7,6 +7,14 @@
 
 namespace scene {
 
+// A force and a moment.
+struct Wrench {
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
+  Eigen::Vector3d moment_Nmm = Eigen::Vector3d::Zero();
+
+  bool is_zero() const { return force_N.isZero(0) && moment_Nmm.isZero(0); }
+};
+
 // follower: components constant in the section frame S at the load's place, turning with it.
 // fixed: components constant in the base frame B (a dead load; a fixed moment keeps its axis).
 enum class Frame { follower, fixed };

@@ -11,14 +11,6 @@
 
 namespace scene {
 
-// A force and a moment.
-struct Wrench {
-  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
-  Eigen::Vector3d moment_Nmm = Eigen::Vector3d::Zero();
-
-  bool is_zero() const { return force_N.isZero(0) && moment_Nmm.isZero(0); }
-};
-
 // The tendons that run through a section at one place, summed.
 struct SectionTendon {
   Eigen::Vector3d arm_S_mm = Eigen::Vector3d::Zero();  // r = (0, y, z)
