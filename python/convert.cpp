@@ -21,6 +21,15 @@ bool is_text(py::handle value) {
   return PyUnicode_Check(value.ptr()) || PyBytes_Check(value.ptr());
 }
 
+// A numpy array of three doubles that can be read as it is: the quick way, for calls that are made often.
+bool is_array_of_3(py::handle value) {
+  if (!py::isinstance<py::array>(value)) return false;
+  const auto* array = py::detail::array_proxy(value.ptr());
+  const auto* kind = py::detail::array_descriptor_proxy(array->descr);
+  return array->nd == 1 && array->dimensions[0] == 3 && kind->type_num == py::detail::npy_api::NPY_DOUBLE_ &&
+         kind->byteorder == '=' && (array->flags & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
+}
+
 // Any sequence; false: not three numbers.
 bool to_vector(py::handle value, Eigen::Vector3d& vector) {
   if (is_text(value)) return false;
@@ -60,12 +69,12 @@ void refuse(const std::string& path, py::handle value, const std::string& rule) 
 
 Eigen::Vector3d vector_of(py::handle value, const char* list, py::ssize_t index, const char* field) {
   Eigen::Vector3d vector;
-  if (py::array_t<double>::check_(value)) {
-    const auto array = py::reinterpret_borrow<py::array_t<double>>(value);
-    if (array.ndim() == 1 && array.shape(0) == 3) return {array.at(0), array.at(1), array.at(2)};
-  } else if (to_vector(value, vector)) {
+  if (is_array_of_3(value)) {
+    const auto array = py::reinterpret_borrow<py::array>(value);
+    for (int i = 0; i < 3; ++i) vector[i] = *static_cast<const double*>(array.data(i));
     return vector;
   }
+  if (to_vector(value, vector)) return vector;
   refuse(place(list, index, field), value, "must be an array of 3 numbers");
 }
 
