@@ -114,7 +114,7 @@ TEST(Batch, ARowThatFailsSaysSoAndTheOthersStay) {
       support::uniform_rod(100, support::slender(1500, 1000), {scene::Force{100, Frame::fixed, {0, 0, 0}, {0, 0}}});
   const std::vector<BatchColumn> force_y{{0, 1}};
   RowMajorMatrix forces_N(3, 1);
-  forces_N << 0.05, 1e300, 0.1;
+  forces_N << 0.05, 1e20, 0.1;
   const fam::BatchResult batch = fam::solve_batch(rod, force_y, forces_N);
   EXPECT_EQ(batch.status[0], Status::converged);
   EXPECT_NE(batch.status[1], Status::converged);

@@ -35,10 +35,12 @@ for tension_N in np.linspace(0, 20, 5):
     axes.quiver(*rod.tip_position_mm, *rod.tip_rotation[:, 0], length=0.06 * length_mm, color="black")  # tip tangent
     print(f"{tension_N:4.0f} N: tip at {np.round(rod.tip_position_mm, 3)} mm, within {rod.error_estimate_mm:.2g} mm")
 
-axes.set(title=scene["title"], xlabel="x, mm", ylabel="y, mm", zlabel="z, mm")
+axes.set_title(scene["title"], loc="left")
+axes.set(ylabel="y, mm", zlabel="z, mm")
+axes.set_xlabel("x, mm", labelpad=16)
 axes.set_box_aspect([np.ptp(axes.get_w_lims()[2 * i:2 * i + 2]) for i in range(3)])  # the same scale on all axes
-axes.legend(title="tensions")
+axes.legend(title="tensions", loc="upper left", bbox_to_anchor=(0.7, 1.05))
 if len(sys.argv) > 1:
-    figure.savefig(sys.argv[1], dpi=150)
+    figure.savefig(sys.argv[1], dpi=150, bbox_inches="tight")
 else:
     plt.show()

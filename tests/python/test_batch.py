@@ -58,7 +58,7 @@ def test_results_are_read_only_views(rod):
 
 
 def test_a_row_that_fails_is_nan(rod):
-    r = fam.solve_batch(rod, [(0, "y")], [[0.1], [1e300], [0.2]])
+    r = fam.solve_batch(rod, [(0, "y")], [[0.1], [1e20], [0.2]])
     assert r.status[0] == r.status[2] == "converged" != r.status[1]
     assert np.isnan(r.position_mm[1]).all() and np.isnan(r.rotation_wxyz[1]).all() and math.isnan(r.error_estimate_mm[1])
     assert np.isfinite(r.position_mm[[0, 2]]).all()
