@@ -17,8 +17,10 @@ endif()
 
 file(GLOB python_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/python/*.cpp)
 pybind11_add_module(fam_python NO_EXTRAS ${python_sources})
-set_target_properties(fam_python PROPERTIES OUTPUT_NAME fam LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}
-                                            INSTALL_RPATH "\$ORIGIN/../../../${CMAKE_INSTALL_LIBDIR}")
+set_target_properties(fam_python PROPERTIES OUTPUT_NAME fam LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+if(BUILD_SHARED_LIBS)
+  set_target_properties(fam_python PROPERTIES INSTALL_RPATH "\$ORIGIN/../../../${CMAKE_INSTALL_LIBDIR}")
+endif()
 target_compile_definitions(fam_python PRIVATE FAM_VERSION="${PROJECT_VERSION}")
 target_link_libraries(fam_python PRIVATE fam scene_file warnings)
 configure_file(${CMAKE_SOURCE_DIR}/python/fam.pyi ${CMAKE_BINARY_DIR}/fam.pyi COPYONLY)

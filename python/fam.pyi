@@ -5,13 +5,13 @@ normal. Rotations have the section's axes in their columns. Scenes: docs/scene_f
 """
 
 import os
-from typing import Any, Literal, Mapping, Sequence, final
+from typing import Any, Literal, Sequence, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 _Array = NDArray[np.float64]
-_Scene = Mapping[str, Any] | str | os.PathLike[str]
+_Scene = dict[str, Any] | str | os.PathLike[str]
 """A dict in the scene format (numpy's arrays and numbers welcome), its JSON text, or the path of a scene file."""
 _Law = Literal["auto", "published", "midpoint", "fourth_order", "sixth_order"]
 _Model = Literal["auto", "kirchhoff", "reissner"]
