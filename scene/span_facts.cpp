@@ -159,6 +159,11 @@ Symmetry symmetry_of(std::span<const Span> spans) {
   return lies_in(spans, 1) ? Symmetry::plane_xz : Symmetry::none;
 }
 
+Symmetry common_symmetry(Symmetry a, Symmetry b) {
+  if (a == b || b == Symmetry::axis) return a;
+  return a == Symmetry::axis ? b : Symmetry::none;
+}
+
 bool is_conservative(std::span<const Span> spans) {
   return std::all_of(spans.begin(), spans.end(), [](const Span& span) {
     return span.follower_load_S.is_zero() && span.follower_force_S_N_per_mm.isZero(0) &&

@@ -32,6 +32,8 @@ bool is_round(std::span<const Span> spans);
 // holds it there: on the axis, or in the plane as long as it would leave it sideways.
 enum class Symmetry { none, plane_xy, plane_xz, axis };
 Symmetry symmetry_of(std::span<const Span> spans);
+// What leaves both as they are.
+Symmetry common_symmetry(Symmetry a, Symmetry b);
 
 // The loads have an energy: fixed forces, gravity and tendons alone. Loads that cancel at a place do not count.
 bool is_conservative(std::span<const Span> spans);
