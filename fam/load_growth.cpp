@@ -15,7 +15,7 @@ constexpr double largest_surprise_rad = 0.05;  // chosen, not measured
 constexpr double smallest_load_step = 1e-12;   // over the load reached: a column pushed aside by 1e-12 EI/L^2 needs it
 constexpr double smallest_bifurcation_step = 1e-5;  // of the load; chosen, not measured
 constexpr double load_step_tolerance = 1e-6;        // of Newton on the way to the full load, where the last is tighter
-constexpr double limit_point_distance = 1e-3;       // of the way; chosen, not measured
+constexpr double limit_point_determinant = 1e-2;    // of that at the start of the way; chosen, not measured
 constexpr int most_passes = 100;                    // of the rod's arcs, within the work limit; chosen, not measured
 
 template <int D>
@@ -136,6 +136,7 @@ void LoadGrowth<D>::start_watch(const Shooting<D>& shooting) {
   may_fall_ = symmetry != scene::Symmetry::none;
   branch_ = {};
   branch_.keep(0, shooting.determinant(false));
+  start_log_size_ = branch_.last().log_size;
 }
 
 template <int D>
@@ -149,7 +150,7 @@ scene::Status LoadGrowth<D>::run(Shooting<D>& shooting) {
   return grow(shooting, 1 / std::max(1.0, bounds.load_length * bounds.load_length + bounds.turn_rad));
 }
 
-// A fold is where the step that is left leads nowhere and the determinant vanishes within a thousandth of the way.
+// A fold is where steps lead nowhere and the determinant has all but vanished.
 template <int D>
 scene::Status LoadGrowth<D>::run_on(Shooting<D>& shooting) {
   end_ = {};
@@ -161,7 +162,7 @@ scene::Status LoadGrowth<D>::run_on(Shooting<D>& shooting) {
   load_steps_ = 0;
   end_.status = grow(shooting, 1);
   const bool fold = end_.status == scene::Status::load_step_too_small && watches_determinant_ &&
-                    branch_.longest_step(load_factor_) < limit_point_distance;
+                    branch_.last().log_size < start_log_size_ + std::log(limit_point_determinant);
   return end_.status = fold ? scene::Status::limit_point : end_.status;
 }
 

@@ -65,6 +65,7 @@ class LoadGrowth {
   Nodes previous_;       // at the last load but one
   double load_factor_ = 0, previous_factor_ = 0, first_step_ = 1;
   scene::BranchWatch branch_;
+  double start_log_size_ = 0;  // of the determinant where the way starts
   bool watches_determinant_ = false;
   bool watches_stability_ = false;  // the loads have an energy, and the rod was stable so far
   bool may_fall_ = false;           // where its symmetry can hold it

@@ -83,7 +83,7 @@ RodChoice choose_rod(std::span<const Span> spans, RodModel wanted, double tolera
   return {RodModel::reissner, 0, may_matter};
 }
 
-void set_first_arcs(std::span<const Span> spans, bool planar, std::vector<int>& arcs) {
+void set_first_arcs(std::span<const Span> spans, bool planar, std::vector<int>& arcs, double factor) {
   arcs.assign(spans.size(), 1);
   walk_from_tip(spans, OneEach{}, [&](const LoadedCell& cell) {
     const Span& span = cell.span;
@@ -93,14 +93,15 @@ void set_first_arcs(std::span<const Span> spans, bool planar, std::vector<int>& 
         cell.length_mm * (span.rest_curvature_per_mm.norm() + moment_Nmm / span.stiffness.bending_Nmm2.minCoeff());
     // Where no force acts the strain is constant, or an Euler top's, and turns matter little.
     const double by_turn = cell.force_N > 0 ? turn_rad / first_turn_rad : 0;
-    const double wanted = std::ceil(std::max(load_length / first_load_length, by_turn));  // NaN where numbers overflow
-    arcs[cell.span_index] = wanted < most_first_arcs ? std::max(1, static_cast<int>(wanted)) : most_first_arcs;
+    const double wanted =
+        std::ceil(factor * std::max(load_length / first_load_length, by_turn));  // NaN where numbers overflow
+    const double most = factor * most_first_arcs;
+    arcs[cell.span_index] = std::max(1, static_cast<int>(wanted < most ? wanted : most));
   });
 }
 
-int arcs_factor(Law law, double tolerance_over_L) {
-  const double factor = std::ceil(std::pow(first_arcs_error / tolerance_over_L, 1.0 / facts_of(law).order));
-  return factor < max_arcs ? std::max(1, static_cast<int>(factor)) : max_arcs;
+double arcs_factor(Law law, double tolerance_over_L) {
+  return std::clamp(std::pow(first_arcs_error / tolerance_over_L, 1.0 / facts_of(law).order), 1.0, 1e5);
 }
 
 Choice choose(std::span<const Span> spans, const Options& options, double tolerance_mm) {

@@ -25,16 +25,16 @@ RodChoice choose_rod(std::span<const scene::Span> spans, RodModel wanted, double
 
 // Arcs of each span to start with: as many as it takes that no arc has a load length (load_length.h) beyond
 // first_load_length, and that none turns farther by rest curvature, tendons and moments than first_turn_rad where a
-// force acts. Chosen, not measured.
+// force acts; `factor` times as many. Chosen, not measured.
 constexpr double first_load_length = 1.5;
 constexpr double first_turn_rad = 2;
 constexpr int most_first_arcs = 1000;  // of a span
-void set_first_arcs(std::span<const scene::Span> spans, bool planar, std::vector<int>& arcs);
+void set_first_arcs(std::span<const scene::Span> spans, bool planar, std::vector<int>& arcs, double factor = 1);
 
-// Times the first arcs, for an error of the tolerance before anything is solved: the error with the first arcs is taken
-// as first_arcs_error of the length, and to fall with the law's order.
+// The factor for an error within the tolerance, before anything is solved: the error with the first arcs is taken as
+// first_arcs_error of the length, and to fall with the law's order.
 constexpr double first_arcs_error = 0.01;
-int arcs_factor(Law law, double tolerance_over_L);
+double arcs_factor(Law law, double tolerance_over_L);
 
 // All that is fixed once the options are read against the loads, the largest on the way.
 struct Choice {

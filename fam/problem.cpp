@@ -80,12 +80,13 @@ void Problem::set(const scene::Scene& scene, const Options& options, const Probl
   choice_.march = scene::all_loads_follow(given_.to);
   choice_.round = false;
   const std::optional<Eigen::Vector2d>& plane = before.choice_.plane;
-  const bool stays_in_plane = plane && choice_.plane == plane && scene::plane_direction(given_.from) == plane &&
-                              scene::plane_direction(given_.to) == plane;
-  if (!stays_in_plane) {
-    choice_.plane.reset();
-    choice_.rotation_BP.setIdentity();
-  }
+  const auto lies_in_it = [&](std::span<const Span> spans) {
+    const std::optional<Eigen::Vector2d> direction = scene::plane_direction(spans);
+    return plane && direction && (*direction == *plane || *direction == -*plane || scene::needs_no_plane(spans));
+  };
+  const bool stays_in_plane = lies_in_it(given_.from) && lies_in_it(given_.to);
+  choice_.plane = stays_in_plane ? plane : std::nullopt;
+  choice_.rotation_BP = stays_in_plane ? before.choice_.rotation_BP : Matrix3d::Identity();
   set_way(false);
 }
 

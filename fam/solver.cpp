@@ -93,7 +93,7 @@ struct Solver::Impl {
   Solution solution;          // of it
   scene::Pose tip = no_pose;
   std::array<Run, 2> spare;
-  std::vector<int> first_arcs, arcs;
+  std::vector<int> arcs;
   scene::CellShares shares;
   struct {
     bool known = false;
@@ -137,7 +137,6 @@ void Solver::Impl::reserve() {
   }
   for (Run& run : spare) run.reserve(room, law);
   solution.reserve(room);
-  first_arcs.reserve(room.spans);
   arcs.reserve(room.spans);
   shares.share.reserve(room.spans);
   shares.order.reserve(room.spans);
@@ -151,11 +150,8 @@ void Solver::Impl::choose_arcs(const Problem& problem) {
     scene::share_cells(problem.spans(), options.arcs, arcs, shares);
     return;
   }
-  set_first_arcs(problem.way().bounds, problem.choice().plane.has_value(), first_arcs);
-  const int factor = arcs_factor(problem.choice().law, problem.tolerance_mm() / problem.length_mm());
-  arcs.assign(first_arcs.begin(), first_arcs.end());
-  for (int& count : arcs)
-    count = static_cast<int>(std::min<long long>(static_cast<long long>(factor) * count, max_arcs));
+  set_first_arcs(problem.way().bounds, problem.choice().plane.has_value(), arcs,
+                 arcs_factor(problem.choice().law, problem.tolerance_mm() / problem.length_mm()));
 }
 
 Status Solver::Impl::solve_with_arcs(Attempt& attempt, bool on) {

@@ -148,6 +148,13 @@ std::optional<Eigen::Vector2d> plane_direction(std::span<const Span> spans) {
   return mirrored ? std::optional(direction) : std::nullopt;
 }
 
+bool needs_no_plane(std::span<const Span> spans) {
+  return lies_on_axis(spans) && std::all_of(spans.begin(), spans.end(), [](const Span& span) {
+           return std::all_of(span.tendons.begin(), span.tendons.end(),
+                              [](const SectionTendon& tendon) { return tendon.arm_S_mm.isZero(0); });
+         });
+}
+
 std::optional<Eigen::Vector3d> plane_normal(std::span<const Span> spans) {
   const std::optional<Eigen::Vector2d> direction = plane_direction(spans);
   return direction ? std::optional(normal_of(*direction)) : std::nullopt;
