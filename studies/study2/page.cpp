@@ -64,7 +64,7 @@ void set_answer(Page& page, const Study2Data& data) {
 double weight_N(const scene::Scene& scene) {
   double weight = 0;
   for (const scene::Load& load : scene.loads) {
-    const auto* gravity = as<scene::Gravity>(load);
+    const auto* gravity = known_load<scene::Gravity>(load);
     if (!gravity) continue;
     for (const scene::Section& s : scene.sections) {
       weight += 1e-3 * s.length_mm * stiffness_of(s).mass_per_length_kg_per_m * gravity->acceleration_m_per_s2.norm();
@@ -81,7 +81,7 @@ double density_kg_per_m3(const scene::Scene& scene) {
 void set_weight(Page& page, const Study2Data& data) {
   double forces_N = 0;
   for (const scene::Load& load : data.forces_alone.loads) {
-    if (const auto* force = as<scene::Force>(load)) forces_N += force->value_N.norm();
+    if (const auto* force = known_load<scene::Force>(load)) forces_N += force->value_N.norm();
   }
   const Study2Row& plain = row(data, "study2", "exact");
   double least = INFINITY;
@@ -102,7 +102,7 @@ void set_weight(Page& page, const Study2Data& data) {
 std::string forces_text(const scene::Scene& scene) {
   std::vector<std::string> texts;
   for (const scene::Load& load : scene.loads) {
-    const auto* force = as<scene::Force>(load);
+    const auto* force = known_load<scene::Force>(load);
     if (!force) continue;
     const auto& f = force->value_N;
     texts.push_back(for_reader(fmt::format("({:.3g}, {:.3g}, {:.3g}) N at {:g} mm", f[0], f[1], f[2], force->at_mm)));
