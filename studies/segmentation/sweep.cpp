@@ -142,8 +142,8 @@ Budget budget(const scene::Scene& p4, const std::string& load, const SweepLaw& l
 PlanarCantilever cantilever_of(const scene::Scene& scene) {
   PlanarCantilever rod{scene::length_mm(scene), scene::stiffness_of(scene.sections[0]).bending_Nmm2[1]};
   for (const scene::Load& load : scene.loads) {
-    if (const auto* force = as<scene::Force>(load)) rod.tip_force_N += force->value_N.head<2>();
-    if (const auto* moment = as<scene::Moment>(load)) rod.tip_moment_Nmm += moment->value_Nmm[2];
+    if (const auto* force = known_load<scene::Force>(load)) rod.tip_force_N += force->value_N.head<2>();
+    if (const auto* moment = known_load<scene::Moment>(load)) rod.tip_moment_Nmm += moment->value_Nmm[2];
   }
   return rod;
 }
