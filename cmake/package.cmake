@@ -27,6 +27,8 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/famConfigVersion.cmake COMP
 install(FILES ${CMAKE_BINARY_DIR}/famConfig.cmake ${CMAKE_BINARY_DIR}/famConfigVersion.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/fam)
 
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/finite-arc-method RENAME copyright)
+
 set(CPACK_GENERATOR TGZ DEB)
 set(CPACK_PACKAGE_NAME finite-arc-method)  # Debian once had another fam
 set(CPACK_PACKAGE_CONTACT "the authors of fam")
