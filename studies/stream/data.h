@@ -14,7 +14,8 @@ namespace studies {
 struct StreamSample {
   int solve;
   double tensions_N[2];
-  Eigen::Vector3d force_N, tip_mm, exact_tip_mm;
+  Eigen::Vector3d force_N, tip_mm;
+  Eigen::Vector3d exact_tip_mm = Eigen::Vector3d::Zero();
 
   double error_mm() const { return (tip_mm - exact_tip_mm).norm(); }
 };

@@ -120,7 +120,7 @@ std::map<std::string, std::string> stream_pages(const StreamData& data, const st
   page.set("length", fmt::format("{:g}", data.length_mm));
   page.set("tolerance", fmt::format("{:g}", data.tolerance_mm));
   page.set("samples", std::to_string(data.samples.size()));
-  page.set("error", error_text(data.largest_error_mm(), 0));
+  page.set("error", error_for_reader(data.largest_error_mm()));
   page.check("all_right", all_right);
   page.check("slopes", data.without_slopes == 0);
   page.check("no_allocation", data.allocations == 0);

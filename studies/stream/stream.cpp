@@ -88,7 +88,7 @@ class Stream {
       data_.latency_us.push_back(spent.count());
       if (i % every == 0) {
         const auto& [first, second] = inputs.tensions_N;
-        data_.samples.push_back({i, {first, second}, inputs.force_N, solver_.tip().position_B_mm, {}});
+        data_.samples.push_back({i, {first, second}, inputs.force_N, solver_.tip().position_B_mm});
       }
     }
     if (options_.allocations) data_.allocations = static_cast<long>(options_.allocations() - before);
