@@ -92,7 +92,7 @@ std::string stream_latency_picture(const StreamData& data) {
   const double worst_us = latency_us(data, 1), median_us = latency_us(data, 0.5);
   const double low =
       std::pow(10, std::floor(std::log10(*std::min_element(data.latency_us.begin(), data.latency_us.end()))));
-  const double high = std::pow(10, std::ceil(std::log10(worst_us)) + (worst_us > 0 ? 0 : 1));
+  const double high = std::pow(10, std::ceil(std::log10(worst_us)));
   Panel panel(svg, {80, 80}, 760, 300, {"time of a solve, µs", low, high, true},
               {"solves", 0.5, 2.0 * static_cast<double>(data.latency_us.size()), true});
   panel.frame();
