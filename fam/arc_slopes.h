@@ -1,56 +1,35 @@
-// How the step of a coupled law over one arc varies: with the wrench and the forces that it meets at its distal end,
-// and with its section's constants.
+// How the step of a coupled law over one arc varies: with the wrench and the forces that it meets at its distal end, and
+// with its section's constants. Derivatives of the step itself, not of the rod: exact to round-off.
 #pragma once
 
+#include "fam/arc_section.h"
 #include "fam/arc_step.h"
-#include "fam/dual.h"
 #include "fam/law.h"
-#include "fam/tendon.h"
 
 #include "scene/rod_model.h"
-#include "scene/span.h"
-
-#include <array>
-#include <span>
 
 namespace fam {
 
-// A vector with slopes, a row for each of its components, and its parts.
+// N changes of a vector, a row for each of its components.
 template <int N>
-using Slopes3 = Eigen::Matrix<double, 3, N>;
-template <int N>
-Vector3<Dual<N>> with_slopes(const Vector3d& value, const Slopes3<N>& slopes) {
-  Vector3<Dual<N>> result;
-  for (int i = 0; i < 3; ++i) result[i] = {value[i], slopes.row(i).transpose().array()};
-  return result;
-}
-template <int N>
-Vector3d value(const Vector3<Dual<N>>& v) {
-  return {v[0].value, v[1].value, v[2].value};
-}
-template <int N>
-Slopes3<N> slopes_of(const Vector3<Dual<N>>& v) {
-  Slopes3<N> slopes;
-  for (int i = 0; i < 3; ++i) slopes.row(i) = v[i].slope.matrix().transpose();
-  return slopes;
-}
+using Slopes3 = Eigen::Matrix<double, 3, N, Eigen::RowMajor>;
 
-// BasicArcConstants<3> in numbers that may vary, whose tendons another keeps.
-template <class Parameter>
-struct VariedConstants {
-  double length_mm = 0;
-  Vector3<Parameter> angular_compliance, rest_rotation, linear_compliance;
-  Vector3d rest_translation_mm = Vector3d::Zero();
-  std::span<const BasicTendon<3, Parameter>> tendons;
+// N changes of what an arc meets: the wrench at its distal end, its distributed forces (times h, as ArcForces), and of
+// its section either nothing, or (N = 3) its rest curvature, its stiffness (GJ, EI_y, EI_z), or the tension of a tendon
+// (the first change; the tendon need not be among the section's).
+enum class Constant { none, rest_curvature, stiffness, tension };
+template <int N>
+struct ArcChange {
+  Slopes3<N> force_N = Slopes3<N>::Zero(), moment_Nmm = Slopes3<N>::Zero();
+  Slopes3<N> follower_S_N = Slopes3<N>::Zero(), fixed_D_N = Slopes3<N>::Zero();
+  Constant constant = Constant::none;
+  Vector3d tendon_arm_mm = Vector3d::Zero();
 };
-
-// Of a length of a span.
-template <class Parameter>
-VariedConstants<Parameter> varied_constants(const scene::Span& span, double length_mm, scene::RodModel model);
 
 // What an arc does, in its distal frame: Q, from the distal end's axes to the proximal one's; the way from the proximal
 // end to the distal one; the force and the moment about the distal end that distributed forces add. Slopes of a small
-// turn of the distal end from the proximal one, of the way, and of that force and moment (rows 0-2, 3-5, 6-8, 9-11).
+// turn of the distal end from the proximal one, of the way, and of that force and moment (rows 0-2, 3-5, 6-8, 9-11; the
+// last six are zero without distributed forces).
 template <int N>
 struct ArcVariation {
   RigidMotion motion;  // Q
@@ -59,13 +38,20 @@ struct ArcVariation {
   Eigen::Matrix<double, 12, N> slopes;
 };
 
-// The wrench is that at the distal end; `distributed`: null without such forces.
-template <int N, class Parameter>
-ArcVariation<N> vary_arc(Law law, scene::RodModel model, const VariedConstants<Parameter>& constants,
-                         const ArcForces<Dual<N>, 3>* distributed, const BasicWrench<Dual<N>, 3>& wrench);
+// `distributed`: null without such forces. N: 3; 6 without and 9 with them.
+template <int N>
+ArcVariation<N> vary_arc(Law law, scene::RodModel model, const BasicArcConstants<3>& arc,
+                         const ArcForces<double, 3>* distributed, const SectionWrench& wrench,
+                         const ArcChange<N>& change);
 
-// Strain times the arc's length.
-BasicScrew<Dual<3>, 3> varied_strain(scene::RodModel model, const VariedConstants<Dual<3>>& constants,
-                                     const BasicWrench<Dual<3>, 3>& wrench);
+// The section's strain (times h) under a wrench and the tendons' pulls; slopes of (u, v) h and of the pulls' force and
+// moment.
+struct StrainVariation {
+  Screw strain;
+  SectionWrench pulls;
+  Eigen::Matrix<double, 6, 3> strain_slopes, pull_slopes;
+};
+StrainVariation vary_strain(scene::RodModel model, const BasicArcConstants<3>& arc, const SectionWrench& wrench,
+                            const ArcChange<3>& change);
 
 }  // namespace fam

@@ -18,24 +18,13 @@ const Kind* load_of(const scene::Scene& scene, std::size_t load) {
   return load < scene.loads.size() ? std::get_if<Kind>(&scene.loads[load]) : nullptr;
 }
 
-// Strain times h and the tendons' pulls under a wrench, with slopes.
-BasicWrench<Dual<3>, 3> pulls(std::span<const BasicTendon<3, Dual<3>>> tendons, const BasicScrew<Dual<3>, 3>& strain) {
-  BasicWrench<Dual<3>, 3> sum;
-  for (const auto& tendon : tendons) {
-    const Vector3<Dual<3>> arm = tendon.arm_mm.cast<Dual<3>>();
-    const Vector3<Dual<3>> t = strain.translation_mm + strain.rotation.cross(arm);
-    const Vector3<Dual<3>> force = t * (tendon.tension_N / sqrt(t.dot(t)));
-    sum = sum + BasicWrench<Dual<3>, 3>{force, arm.cross(force)};
-  }
-  return sum;
-}
-
 }  // namespace
 
-void Response::reserve(std::size_t arcs, std::size_t spans) {
+void Response::reserve(std::size_t arcs, std::size_t spans, std::size_t tendons) {
   arcs_.resize(arcs);
   first_arcs_.reserve(spans + 1);
   section_of_span_.reserve(spans);
+  constants_.tendons.reserve(tendons);
   for (Sweep& sweep : sweeps_) sweep.nodes.resize(arcs);
 }
 
@@ -92,12 +81,9 @@ void Response::set_place_jumps(Sweep& sweep) {
   else load_S.moment_Nmm = to_section * moment->value_Nmm;
   const SectionWrench without_S = with_S + (-1.0) * load_S;
 
-  const double h = arc_length_mm(i);
-  const VariedConstants<Dual<3>> constants = seeded_constants({}, i, h);
-  const auto strain = [&](const SectionWrench& wrench) -> Screw {
-    const auto varied =
-        varied_strain(solution_.model, constants, {wrench.force_N.cast<Dual<3>>(), wrench.moment_Nmm.cast<Dual<3>>()});
-    return {value<3>(varied.rotation) / h, value<3>(varied.translation_mm) / h};
+  set_constants(i, arc_length_mm(i));
+  const auto strain = [&](const SectionWrench& wrench) {
+    return (1 / constants_.length_mm) * vary_strain(solution_.model, constants_, wrench, {}).strain;
   };
   const Screw beyond = strain(without_S), before = strain(with_S);
   const Vector3d &u = beyond.rotation, &v = beyond.translation_mm;
@@ -133,17 +119,16 @@ Columns Response::rows(const Source& source, double s_mm, What what) {
 // From an arc's distal end to a place inside, by the law's step over the part between.
 Response::Section Response::inside(const Source& source, const Place& place, const Section& distal) {
   const double length_mm = place.part * arc_length_mm(place.span);
-  const scene::Span& span = solution_.spans[place.span];
   const Matrix3d& R = distal.rotation_BS;
-  const VariedConstants<Dual<3>> constants = seeded_constants(source, place.span, length_mm);
+  ArcChange<3> change = distal.change_S();
+  change.fixed_D_N =
+      R.transpose() * skew(length_mm * solution_.spans[place.span].fixed_force_B_N_per_mm) * distal.turn;
+  add_source(source, place.span, length_mm, R, change);
+  set_constants(place.span, length_mm);
+  const ArcForces<double, 3> forces = forces_on(place.span, length_mm, R);
   const bool with_forces = has_forces(place.span) || brings_forces(source, place.span);
-  ArcForces<Dual<3>, 3> forces;
-  if (with_forces) {
-    forces =
-        seeded_forces(source, place.span, length_mm, R, skew(length_mm * span.fixed_force_B_N_per_mm) * distal.turn);
-  }
-  const ArcVariation<3> part =
-      vary_arc(solution_.law, solution_.model, constants, with_forces ? &forces : nullptr, distal.wrench_S());
+  const ArcVariation<3> part = vary_arc(solution_.law, solution_.model, constants_, with_forces ? &forces : nullptr,
+                                        distal.wrench_S(), change);
 
   Section at;
   const Vector3d way = R * part.way_D_mm, gain_N = R * part.gain_D.force_N, gain_Nmm = R * part.gain_D.moment_Nmm;
@@ -162,28 +147,28 @@ Response::Section Response::inside(const Source& source, const Place& place, con
   return at;
 }
 
-// The wrench in the section's frame.
-BasicWrench<Dual<3>, 3> Response::Section::wrench_S() const {
-  const Matrix3d R_SB = rotation_BS.transpose();
-  return {with_slopes<3>(R_SB * force_N, R_SB * (wrench.topRows<3>() + skew(force_N) * turn)),
-          with_slopes<3>(R_SB * moment_Nmm, R_SB * (wrench.bottomRows<3>() + skew(moment_Nmm) * turn))};
+SectionWrench Response::Section::wrench_S() const {
+  return {rotation_BS.transpose() * force_N, rotation_BS.transpose() * moment_Nmm};
+}
+
+ArcChange<3> Response::Section::change_S() const {
+  ArcChange<3> change;
+  change.force_N = rotation_BS.transpose() * (wrench.topRows<3>() + skew(force_N) * turn);
+  change.moment_Nmm = rotation_BS.transpose() * (wrench.bottomRows<3>() + skew(moment_Nmm) * turn);
+  return change;
 }
 
 Columns Response::strain_or_wrench(const Source& source, const Place& place, const Section& section, What what) {
-  const double h = arc_length_mm(place.span);
-  const VariedConstants<Dual<3>> constants = seeded_constants(source, place.span, h);
-  const BasicWrench<Dual<3>, 3> total = section.wrench_S();
-  const BasicScrew<Dual<3>, 3> strain = varied_strain(solution_.model, constants, total);
-  Columns result;
-  if (what == What::strain) {
-    result << slopes_of<3>(strain.rotation), slopes_of<3>(strain.translation_mm);
-    return result / h;
-  }
-  const BasicWrench<Dual<3>, 3> own = total + (-1.0) * pulls(constants.tendons, strain);
   const Matrix3d& R = section.rotation_BS;
-  result << R * slopes_of<3>(own.force_N) - skew(R * value<3>(own.force_N)) * section.turn,
-      R * slopes_of<3>(own.moment_Nmm) - skew(R * value<3>(own.moment_Nmm)) * section.turn;
-  return result;
+  ArcChange<3> change = section.change_S();
+  add_source(source, place.span, arc_length_mm(place.span), R, change);
+  set_constants(place.span, arc_length_mm(place.span));
+  const StrainVariation at = vary_strain(solution_.model, constants_, section.wrench_S(), change);
+  if (what == What::strain) return at.strain_slopes / constants_.length_mm;
+  Columns pulls;  // base frame
+  pulls << R * at.pull_slopes.topRows<3>() - skew(R * at.pulls.force_N) * section.turn,
+      R * at.pull_slopes.bottomRows<3>() - skew(R * at.pulls.moment_Nmm) * section.turn;
+  return section.wrench - pulls;
 }
 
 Eigen::Matrix<double, 6, 6> Response::compliance(double s_mm, What what) {

@@ -36,8 +36,8 @@ class Response {
   enum class What { pose, strain, wrench };
   using Columns = Eigen::Matrix<double, 6, 3>;
 
-  // Takes all memory: nothing below allocates for rods of at most so many arcs and spans.
-  void reserve(std::size_t arcs, std::size_t spans);
+  // Takes all memory: nothing below allocates for rods of at most so many arcs, spans and tendons.
+  void reserve(std::size_t arcs, std::size_t spans, std::size_t tendons);
   // Costs nothing; the derivatives are made when the first is asked for.
   void set(const Solution& solution);
 
@@ -92,14 +92,15 @@ class Response {
     Vector3d force_N, moment_Nmm;
     Matrix3d turn, shift_mm;
     Columns wrench;
-    BasicWrench<Dual<3>, 3> wrench_S() const;
+    // In its own frame: the wrench, and its changes.
+    SectionWrench wrench_S() const;
+    ArcChange<3> change_S() const;
   };
 
   void prepare();  // for the solution, when the first is asked for
   void name_spans();
   void factorise_span(std::size_t span);
-  SectionWrench linearise(std::size_t span, std::size_t arc, const VariedConstants<double>& constants,
-                          const VariedConstants<Dual<3>>& same);
+  SectionWrench linearise(std::size_t span, std::size_t arc);
   void carry(std::size_t span, std::size_t arc, const SectionWrench& gain_B);
 
   const Sweep& swept(const Source& source);
@@ -111,15 +112,15 @@ class Response {
   Section inside(const Source& source, const Place& place, const Section& distal);
   Columns strain_or_wrench(const Source& source, const Place& place, const Section& section, What what);
 
-  Eigen::Matrix<double, 12, 3> source_in(const Source& source, std::size_t span, std::size_t arc,
-                                         const VariedConstants<Dual<3>>& constants) const;
   bool acts_in(const Source& source, std::size_t span) const;
   bool brings_forces(const Source& source, std::size_t span) const;
-  // Of a length of a span, with the slopes that a source gives them.
-  VariedConstants<Dual<3>> seeded_constants(const Source& source, std::size_t span, double length_mm);
-  // At a distal end in whose frame the fixed force changes by R^T times these slopes, too.
-  ArcForces<Dual<3>, 3> seeded_forces(const Source& source, std::size_t span, double length_mm,
-                                      const Matrix3d& rotation_BS, const Matrix3d& fixed_slopes_B) const;
+  Eigen::Matrix<double, 12, 3> source_in(const Source& source, std::size_t span, std::size_t arc) const;
+  // Adds what the source changes in a length of a span with such a distal end.
+  void add_source(const Source& source, std::size_t span, double length_mm, const Matrix3d& rotation_BS,
+                  ArcChange<3>& change) const;
+  // constants_ of a length of a span.
+  void set_constants(std::size_t span, double length_mm);
+  ArcForces<double, 3> forces_on(std::size_t span, double length_mm, const Matrix3d& rotation_BS) const;
 
   bool has_forces(std::size_t span) const {
     return !solution_.spans[span].follower_force_S_N_per_mm.isZero(0) ||
@@ -137,8 +138,7 @@ class Response {
   std::vector<std::size_t> first_arcs_, section_of_span_;  // one more first arc than spans
   std::array<Sweep, 8> sweeps_;
   unsigned long asked_ = 0;
-  std::array<BasicTendon<3, double>, scene::max_tendon_offsets + 1> tendons_;  // of the span in hand
-  std::array<BasicTendon<3, Dual<3>>, scene::max_tendon_offsets + 1> seeded_tendons_;
+  BasicArcConstants<3> constants_;  // of the span in hand
 };
 
 }  // namespace fam

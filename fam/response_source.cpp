@@ -52,46 +52,47 @@ bool Response::brings_forces(const Source& source, std::size_t i) const {
   return source.kind == Kind::distributed && acts_in(source, i);
 }
 
-VariedConstants<Dual<3>> Response::seeded_constants(const Source& source, std::size_t i, double length_mm) {
-  const scene::Span& span = solution_.spans[i];
-  VariedConstants<Dual<3>> constants = varied_constants<Dual<3>>(span, length_mm, solution_.model);
-  const bool acts = acts_in(source, i);
-  std::size_t tendons = 0;
-  for (const scene::SectionTendon& tendon : span.tendons)
-    seeded_tendons_[tendons++] = {tendon.arm_S_mm, tendon.tension_N};
-  if (acts && source.kind == Kind::tension) {
+void Response::add_source(const Source& source, std::size_t i, double length_mm, const Matrix3d& rotation_BS,
+                          ArcChange<3>& change) const {
+  if (!acts_in(source, i)) return;
+  if (source.kind == Kind::rest_curvature) change.constant = Constant::rest_curvature;
+  if (source.kind == Kind::stiffness) change.constant = Constant::stiffness;
+  if (source.kind == Kind::tension) {
     const Eigen::Vector2d& offset_mm = std::get<scene::Tendon>(solution_.scene->loads[source.index]).offset_mm;
-    const Vector3d arm_mm(0, offset_mm[0], offset_mm[1]);
-    std::size_t same = 0;
-    while (same < tendons && seeded_tendons_[same].arm_mm != arm_mm) ++same;
-    if (same == tendons) seeded_tendons_[tendons++] = {arm_mm, 0.0};  // it is slack
-    seeded_tendons_[same].tension_N.slope[0] = 1;
+    change.constant = Constant::tension;
+    change.tendon_arm_mm = {0, offset_mm[0], offset_mm[1]};
   }
-  constants.tendons = {seeded_tendons_.data(), tendons};
-  const scene::Stiffness& stiffness = span.stiffness;
-  const Vector3d angular(stiffness.torsion_Nmm2, stiffness.bending_Nmm2[0], stiffness.bending_Nmm2[1]);
-  for (int axis = 0; acts && axis < 3; ++axis) {
-    if (source.kind == Kind::rest_curvature) constants.rest_rotation[axis].slope[axis] = length_mm;
-    if (source.kind == Kind::stiffness) {
-      constants.angular_compliance[axis].slope[axis] = -length_mm / (angular[axis] * angular[axis]);
-    }
+  if (source.kind != Kind::distributed) return;
+  const auto* force = std::get_if<scene::DistributedForce>(&solution_.scene->loads[source.index]);
+  if (force && force->frame == scene::Frame::follower) {
+    change.follower_S_N += length_mm * Matrix3d::Identity();
+  } else {
+    const double mass = 1e-3 * solution_.spans[i].stiffness.mass_per_length_kg_per_m;  // kg/m m/s^2 = 1e-3 N/mm
+    change.fixed_D_N += (force ? 1 : mass) * length_mm * rotation_BS.transpose();
   }
-  return constants;
 }
 
-ArcForces<Dual<3>, 3> Response::seeded_forces(const Source& source, std::size_t i, double length_mm,
-                                              const Matrix3d& rotation_BS, const Matrix3d& fixed_slopes_B) const {
+// As arc_constants, which allocates.
+void Response::set_constants(std::size_t i, double length_mm) {
   const scene::Span& span = solution_.spans[i];
-  Matrix3d follower = Matrix3d::Zero(), fixed_B = fixed_slopes_B;
-  if (brings_forces(source, i)) {
-    const auto* force = std::get_if<scene::DistributedForce>(&solution_.scene->loads[source.index]);
-    if (!force) fixed_B += 1e-3 * span.stiffness.mass_per_length_kg_per_m * length_mm * Matrix3d::Identity();
-    else if (force->frame == scene::Frame::fixed) fixed_B += length_mm * Matrix3d::Identity();
-    else follower = length_mm * Matrix3d::Identity();
+  const scene::Stiffness& stiffness = span.stiffness;
+  const Vector3d angular(stiffness.torsion_Nmm2, stiffness.bending_Nmm2[0], stiffness.bending_Nmm2[1]);
+  constants_.length_mm = length_mm;
+  constants_.angular_compliance = length_mm * angular.cwiseInverse();
+  constants_.rest_rotation = length_mm * span.rest_curvature_per_mm;
+  constants_.rest_translation_mm[0] = length_mm;
+  constants_.linear_compliance.setZero();
+  if (solution_.model == scene::RodModel::reissner) {
+    if (stiffness.axial_N) constants_.linear_compliance[0] = length_mm / *stiffness.axial_N;
+    if (stiffness.shear_N) constants_.linear_compliance.tail<2>() = length_mm * stiffness.shear_N->cwiseInverse();
   }
-  const Matrix3d to_section = rotation_BS.transpose();
-  return {with_slopes<3>(length_mm * span.follower_force_S_N_per_mm, follower),
-          with_slopes<3>(to_section * (length_mm * span.fixed_force_B_N_per_mm), to_section * fixed_B)};
+  set_tendons(constants_, span, solution_.model, 1);
+}
+
+ArcForces<double, 3> Response::forces_on(std::size_t i, double length_mm, const Matrix3d& rotation_BS) const {
+  const scene::Span& span = solution_.spans[i];
+  return {length_mm * span.follower_force_S_N_per_mm,
+          rotation_BS.transpose() * (length_mm * span.fixed_force_B_N_per_mm)};
 }
 
 }  // namespace fam

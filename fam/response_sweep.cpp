@@ -19,25 +19,37 @@ Columns turn_stiffness(const scene::Span& span, const Matrix3d& rotation_BS) {
   return slopes;
 }
 
-// The wrench with six slopes, one for each of its components.
-BasicWrench<Dual<6>, 3> varied(const SectionWrench& wrench) {
-  BasicWrench<Dual<6>, 3> result{wrench.force_N.cast<Dual<6>>(), wrench.moment_Nmm.cast<Dual<6>>()};
-  for (int i = 0; i < 3; ++i) {
-    result.force_N[i].slope[i] = 1;
-    result.moment_Nmm[i].slope[3 + i] = 1;
-  }
-  return result;
+// One for each component of the distal wrench.
+template <int N>
+ArcChange<N> unit_changes() {
+  ArcChange<N> change;
+  change.force_N.template leftCols<3>().setIdentity();
+  change.moment_Nmm.template middleCols<3>(3).setIdentity();
+  return change;
 }
 
 // Blocks of three rows and columns, from a section's frame into the base frame.
-template <class To, class From>
-void to_base(const Matrix3d& rotation_BS, const From& from, int rows, To&& to) {
-  for (int row = 0; row < rows; row += 3) {
-    for (int column = 0; column < from.cols(); column += 3) {
-      to.template block<3, 3>(row, column) =
-          rotation_BS * from.template block<3, 3>(row, column) * rotation_BS.transpose();
+template <int rows, int N>
+void to_base(const Matrix3d& rotation_BS, const Eigen::Matrix<double, 12, N>& from, Eigen::Matrix<double, 12, 9>& to) {
+  const Matrix3d rotation_SB = rotation_BS.transpose();
+  for (int column = 0; column < N; column += 3) {
+    for (int row = 0; row < rows; row += 3) {
+      const Matrix3d half = from.template block<3, 3>(row, column) * rotation_SB;
+      to.block<3, 3>(row, column).noalias() = rotation_BS * half;
     }
   }
+}
+
+// a x b for each column of b.
+template <class B>
+Matrix3d crossed(const Vector3d& a, const B& b) {
+  Matrix3d result;
+  for (int i = 0; i < 3; ++i) {
+    result(0, i) = a[1] * b(2, i) - a[2] * b(1, i);
+    result(1, i) = a[2] * b(0, i) - a[0] * b(2, i);
+    result(2, i) = a[0] * b(1, i) - a[1] * b(0, i);
+  }
+  return result;
 }
 
 }  // namespace
@@ -67,47 +79,31 @@ void Response::name_spans() {
 }
 
 void Response::factorise_span(std::size_t i) {
-  const scene::Span& span = solution_.spans[i];
-  VariedConstants<double> constants = varied_constants<double>(span, arc_length_mm(i), solution_.model);
-  for (std::size_t k = 0; k < span.tendons.size(); ++k) {
-    tendons_[k] = {span.tendons[k].arm_S_mm, span.tendons[k].tension_N};
-  }
-  constants.tendons = {tendons_.data(), span.tendons.size()};
-  const bool distributed = has_forces(i);
-  const VariedConstants<Dual<3>> same =
-      distributed ? seeded_constants({}, i, constants.length_mm) : VariedConstants<Dual<3>>{};
-  for (std::size_t k = first_arcs_[i + 1]; k-- > first_arcs_[i];) {
-    carry(i, k, linearise(i, k, constants, same));
-  }
+  set_constants(i, arc_length_mm(i));
+  for (std::size_t k = first_arcs_[i + 1]; k-- > first_arcs_[i];) carry(i, k, linearise(i, k));
 }
 
 // Slopes and solution of an arc, base frame; the force and moment that its distributed forces add.
-SectionWrench Response::linearise(std::size_t i, std::size_t k, const VariedConstants<double>& constants,
-                                  const VariedConstants<Dual<3>>& same) {
+SectionWrench Response::linearise(std::size_t i, std::size_t k) {
   const Matrix3d& R = solution_.poses[k + 1].rotation_BS;
   const SectionWrench& wrench = solution_.distal_wrenches_S[k];
   Arc& arc = arcs_[k];
-  ArcForces<Dual<6>, 3> forces;
-  const bool distributed = has_forces(i);
-  if (distributed) {
-    const Vector3d fixed_D_N = R.transpose() * solution_.spans[i].fixed_force_B_N_per_mm * constants.length_mm;
-    forces = {(constants.length_mm * solution_.spans[i].follower_force_S_N_per_mm).cast<Dual<6>>(),
-              fixed_D_N.cast<Dual<6>>()};
-  }
-  const ArcVariation<6> by_wrench =
-      vary_arc(solution_.law, solution_.model, constants, distributed ? &forces : nullptr, varied(wrench));
-  to_base(R, by_wrench.slopes, distributed ? 12 : 6, arc.slopes.leftCols<6>());
-  if (distributed) {
-    const ArcForces<Dual<3>, 3> turning = seeded_forces({}, i, constants.length_mm, R, R);
-    const ArcVariation<3> by_force =
-        vary_arc(solution_.law, solution_.model, same, &turning,
-                 BasicWrench<Dual<3>, 3>{wrench.force_N.cast<Dual<3>>(), wrench.moment_Nmm.cast<Dual<3>>()});
-    to_base(R, by_force.slopes, 12, arc.slopes.rightCols<3>());
-  }
   arc.force_N = R * wrench.force_N;
   arc.moment_Nmm = R * wrench.moment_Nmm;
-  arc.way_mm = R * by_wrench.way_D_mm;
-  return {R * by_wrench.gain_D.force_N, R * by_wrench.gain_D.moment_Nmm};
+  if (!has_forces(i)) {
+    const ArcVariation<6> variation =
+        vary_arc(solution_.law, solution_.model, constants_, nullptr, wrench, unit_changes<6>());
+    to_base<6>(R, variation.slopes, arc.slopes);
+    arc.way_mm = R * variation.way_D_mm;
+    return {};
+  }
+  ArcChange<9> change = unit_changes<9>();
+  change.fixed_D_N.rightCols<3>().setIdentity();
+  const ArcForces<double, 3> forces = forces_on(i, constants_.length_mm, R);
+  const ArcVariation<9> variation = vary_arc(solution_.law, solution_.model, constants_, &forces, wrench, change);
+  to_base<12>(R, variation.slopes, arc.slopes);
+  arc.way_mm = R * variation.way_D_mm;
+  return {R * variation.gain_D.force_N, R * variation.gain_D.moment_Nmm};
 }
 
 // S at the arc's distal end, from that beyond, and what the arc makes of it: its own answer to the turn of its proximal
@@ -142,7 +138,7 @@ void Response::carry(std::size_t i, std::size_t k, const SectionWrench& gain_B) 
     carried.topRows<3>() -= skew(gain_B.force_N);
     carried.bottomRows<3>() -= skew(gain_B.moment_Nmm);
   }
-  carried.bottomRows<3>() += skew(arc.way_mm) * carried.topRows<3>() - skew(arc.proximal_force_N) * arc.way_by_turn;
+  carried.bottomRows<3>() += crossed(arc.way_mm, carried.topRows<3>()) - crossed(arc.proximal_force_N, arc.way_by_turn);
   arc.onwards = carried * arc.turn_by_turn;
 }
 
@@ -151,41 +147,43 @@ void Response::sweep_to_clamp(Sweep& sweep) {
   Columns w = Columns::Zero();
   for (std::size_t i = solution_.spans.size(); i-- > 0;) {
     const bool acts = acts_in(sweep.source, i), distributed = has_forces(i);
-    VariedConstants<Dual<3>> constants;
-    if (acts) constants = seeded_constants(sweep.source, i, arc_length_mm(i));
+    if (acts) set_constants(i, arc_length_mm(i));
     for (std::size_t k = first_arcs_[i + 1]; k-- > first_arcs_[i];) {
       const Arc& arc = arcs_[k];
       Node& node = sweep.nodes[k];
       if (i == sweep.jump_span && k + 1 == first_arcs_[i + 1]) w += sweep.wrench_jump - arc.stiffness * sweep.turn_jump;
       node.wrench = w;
-      Eigen::Matrix<double, 12, 3> answer;
-      if (distributed) {
-        answer.noalias() = arc.slopes.leftCols<6>() * w;
+      if (!distributed && !acts) {
+        const Columns answer = arc.slopes.topLeftCorner<6, 6>() * w;
+        node.turn = answer.topRows<3>();
+        node.shift_mm = answer.bottomRows<3>();
       } else {
-        answer.topRows<6>().noalias() = arc.slopes.topLeftCorner<6, 6>() * w;
-        answer.bottomRows<6>().setZero();
+        Eigen::Matrix<double, 12, 3> answer = Eigen::Matrix<double, 12, 3>::Zero();
+        if (distributed) answer = arc.slopes.leftCols<6>() * w;
+        else answer.topRows<6>() = arc.slopes.topLeftCorner<6, 6>() * w;
+        if (acts) answer += source_in(sweep.source, i, k);
+        node.turn = answer.topRows<3>();
+        node.shift_mm = answer.middleRows<3>(3);
+        w += answer.bottomRows<6>();
       }
-      if (acts) answer += source_in(sweep.source, i, k, constants);
-      node.turn = answer.topRows<3>();
-      node.shift_mm = answer.middleRows<3>(3);
-      w += answer.bottomRows<6>();
-      w.bottomRows<3>() += skew(arc.way_mm) * w.topRows<3>() - skew(arc.proximal_force_N) * node.shift_mm;
+      w.bottomRows<3>() += crossed(arc.way_mm, w.topRows<3>()) - crossed(arc.proximal_force_N, node.shift_mm);
       w += arc.onwards * node.turn;
     }
   }
 }
 
 // What the source makes of an arc whose distal end is held: turn, way, force and moment, base frame.
-Eigen::Matrix<double, 12, 3> Response::source_in(const Source& source, std::size_t i, std::size_t k,
-                                                 const VariedConstants<Dual<3>>& constants) const {
+Eigen::Matrix<double, 12, 3> Response::source_in(const Source& source, std::size_t i, std::size_t k) const {
   const Matrix3d& R = solution_.poses[k + 1].rotation_BS;
-  const SectionWrench& wrench = solution_.distal_wrenches_S[k];
+  ArcChange<3> change;
+  add_source(source, i, constants_.length_mm, R, change);
+  if (has_forces(i) && change.constant == Constant::none && change.follower_S_N.isZero(0)) {
+    return arcs_[k].slopes.rightCols<3>() * (R * change.fixed_D_N);
+  }
+  const ArcForces<double, 3> forces = forces_on(i, constants_.length_mm, R);
   const bool with_forces = has_forces(i) || brings_forces(source, i);
-  ArcForces<Dual<3>, 3> forces;
-  if (with_forces) forces = seeded_forces(source, i, constants.length_mm, R, Matrix3d::Zero());
-  const ArcVariation<3> variation =
-      vary_arc(solution_.law, solution_.model, constants, with_forces ? &forces : nullptr,
-               BasicWrench<Dual<3>, 3>{wrench.force_N.cast<Dual<3>>(), wrench.moment_Nmm.cast<Dual<3>>()});
+  const ArcVariation<3> variation = vary_arc(solution_.law, solution_.model, constants_,
+                                             with_forces ? &forces : nullptr, solution_.distal_wrenches_S[k], change);
   Eigen::Matrix<double, 12, 3> result;
   for (int row = 0; row < 12; row += 3) result.middleRows<3>(row) = R * variation.slopes.middleRows<3>(row);
   return result;

@@ -21,17 +21,15 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <span>
-#include <type_traits>
 #include <vector>
 
 namespace fam {
 
 // The tendons of a span, tension times the load factor; in the plane without the offsets normal to it.
-template <int D, class T = double>
+template <int D>
 struct BasicTendon {
   Vector<double, D> arm_mm;
-  T tension_N;
+  double tension_N;
 };
 
 // Where |v + u x r| is smaller the tendon has collapsed to a point: its direction is not defined, the rod's strain is
@@ -50,24 +48,23 @@ BasicWrench<double, D> tendon_pulls(const std::vector<BasicTendon<D>>& tendons, 
   return sum;
 }
 
-// Strain times h from a wrench, in a section with tendons; the arc laws' `Section`. Its constants are doubles, or vary
-// as well (Parameter = T).
-template <bool with_shear, class T, int D, class Parameter = double>
+// Strain times h from a wrench, in a section with tendons; the arc laws' `Section`.
+template <bool with_shear, class T, int D>
 class TendonSection {
  public:
   static constexpr bool gives_way = with_shear;
   static constexpr int rotations = rotations_of(D);
   static constexpr int unknowns = with_shear ? rotations + D : rotations;
   using Strain = Eigen::Matrix<T, unknowns, 1>;  // u h, then v h where it gives way
-  using Tendons = std::span<const BasicTendon<D, Parameter>>;
+  using Tendons = std::vector<BasicTendon<D>>;
 
-  template <class Constants>  // BasicArcConstants<D>, or its like in Parameters
+  template <class Constants>  // BasicArcConstants<D>
   explicit TendonSection(const Constants& arc) : tendons_(arc.tendons), rest_translation_mm_(arc.rest_translation_mm) {
     compliance_.template head<rotations>() = arc.angular_compliance;
     rest_.template head<rotations>() = arc.rest_rotation;
     if constexpr (with_shear) {
       compliance_.template tail<D>() = arc.linear_compliance;
-      rest_.template tail<D>() = arc.rest_translation_mm.template cast<Parameter>();
+      rest_.template tail<D>() = arc.rest_translation_mm;
     }
   }
 
@@ -103,9 +100,9 @@ class TendonSection {
     Strain x = vector(moment_Nmm, force_N);
     for (std::size_t i = 0; i < tendons_.size(); ++i) {
       known_parts(series_[i], k);
-      x -= as<T>(tendons_[i].tension_N) * pull(series_[i].direction[k], arm(i));
+      x -= T(tendons_[i].tension_N) * pull(series_[i].direction[k], arm(i));
     }
-    x = as<T>(compliance_).cwiseProduct(x).eval();
+    x = compliance_.template cast<T>().cwiseProduct(x).eval();
     substitute(x);
     const BasicScrew<T, D> result = screw<T>(x, Vector<T, D>(Vector<T, D>::Zero()));
     for (std::size_t i = 0; i < tendons_.size(); ++i) {
@@ -137,16 +134,6 @@ class TendonSection {
     if constexpr (with_shear) return {x.template head<rotations>(), x.template tail<D>()};
     else return {x, rigid};
   }
-  // A constant, or a vector of them, as a number of the calculation in hand.
-  template <class Number>
-  static Number as(const Parameter& constant) {
-    if constexpr (std::is_same_v<Number, double>) return value_of(constant);
-    else return Number(constant);
-  }
-  template <class Number>
-  static Eigen::Matrix<Number, unknowns, 1> as(const Eigen::Matrix<Parameter, unknowns, 1>& constants) {
-    return constants.unaryExpr([](const Parameter& constant) { return as<Number>(constant); });
-  }
   Vector<T, D> arm(std::size_t i) const { return tendons_[i].arm_mm.template cast<T>(); }
 
   template <class Number>
@@ -162,7 +149,7 @@ class TendonSection {
   void add_stiffness(Eigen::Matrix<Number, unknowns, unknowns>& matrix, std::size_t i, const Vector<Number, D>& d,
                      const Number& length) const {
     const Vector<Number, D> arm = tendons_[i].arm_mm.template cast<Number>();
-    const Number factor = as<Number>(tendons_[i].tension_N) / length;
+    const Number factor = Number(tendons_[i].tension_N) / length;
     for (int column = 0; column < unknowns; ++column) {
       Eigen::Matrix<Number, unknowns, 1> unit = Eigen::Matrix<Number, unknowns, 1>::Unit(column);
       Vector<Number, D> t = tangent<Number>(screw<Number>(unit, Vector<Number, D>(Vector<Number, D>::Zero())), arm);
@@ -170,7 +157,7 @@ class TendonSection {
       Eigen::Matrix<Number, unknowns, 1> row;
       row.template head<rotations>() = arm_cross(arm, t);
       if constexpr (with_shear) row.template tail<D>() = t;
-      matrix.col(column) += as<Number>(compliance_).cwiseProduct(row) * factor;
+      matrix.col(column) += compliance_.template cast<Number>().cwiseProduct(row) * factor;
     }
   }
 
@@ -188,14 +175,14 @@ class TendonSection {
       const Number length = sqrt(t.dot(t));
       if (!(value_of(length) > smallest_tendon_stretch * rest_translation_mm_[0])) return false;
       const Vector<Number, D> d = t * (Number(1) / length);
-      const Number tension = as<Number>(tendons_[i].tension_N);
+      const Number tension(tendons_[i].tension_N);
       rest_loads.template head<rotations>() -= arm_cross(arm, d) * tension;
       if constexpr (with_shear) rest_loads.template tail<D>() -= d * tension;
       if constexpr (std::is_same_v<Number, double>) {
         if (matrix) add_stiffness<double>(*matrix, i, d, length);
       }
     }
-    result = x - as<Number>(rest_) - as<Number>(compliance_).cwiseProduct(rest_loads);
+    result = x - rest_.template cast<Number>() - compliance_.template cast<Number>().cwiseProduct(rest_loads);
     return true;
   }
 
@@ -204,8 +191,7 @@ class TendonSection {
                       const Eigen::Matrix<double, unknowns, 1>& direction) const {
     double slope = 0;
     for (int i = 0; i < unknowns; ++i) {
-      const double compliance = value_of(compliance_[i]);
-      if (compliance > 0) slope += miss[i] * direction[i] / compliance;
+      if (compliance_[i] > 0) slope += miss[i] * direction[i] / compliance_[i];
     }
     return slope;
   }
@@ -215,22 +201,19 @@ class TendonSection {
   [[gnu::noinline]] Eigen::Matrix<double, unknowns, 1> minimise(const Eigen::Matrix<double, unknowns, 1>& loads) {
     using Unknowns = Eigen::Matrix<double, unknowns, 1>;
     constexpr int max_steps = 60;
-    const Unknowns compliance = as<double>(compliance_), rest = as<double>(rest_);
-    Unknowns x = rest, direct = loads;
-    for (const auto& tendon : tendons_) {
+    Unknowns x = rest_, direct = loads;
+    for (const BasicTendon<D>& tendon : tendons_) {
       const Vector<double, D> e_x = Vector<double, D>::Unit(0);
-      const double tension_N = as<double>(tendon.tension_N);
-      direct.template head<rotations>() -= tension_N * arm_cross(tendon.arm_mm, e_x);
-      if constexpr (with_shear) direct.template tail<D>() -= tension_N * e_x;
+      direct.template head<rotations>() -= tendon.tension_N * arm_cross(tendon.arm_mm, e_x);
+      if constexpr (with_shear) direct.template tail<D>() -= tendon.tension_N * e_x;
     }
-    x += compliance.cwiseProduct(direct);
+    x += compliance_.cwiseProduct(direct);
     Unknowns scale = direct.cwiseAbs() + loads.cwiseAbs();  // of the loads, then of the strains
-    for (const auto& tendon : tendons_) {
-      const double tension_N = as<double>(tendon.tension_N);
-      scale.template head<rotations>().array() += tension_N * tendon.arm_mm.norm();
-      if constexpr (with_shear) scale.template tail<D>().array() += tension_N;
+    for (const BasicTendon<D>& tendon : tendons_) {
+      scale.template head<rotations>().array() += tendon.tension_N * tendon.arm_mm.norm();
+      if constexpr (with_shear) scale.template tail<D>().array() += tendon.tension_N;
     }
-    scale = (rest.cwiseAbs() + compliance.cwiseProduct(scale)).eval();
+    scale = (rest_.cwiseAbs() + compliance_.cwiseProduct(scale)).eval();
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < max_steps; ++step) {
       Eigen::Matrix<double, unknowns, unknowns> matrix = Eigen::Matrix<double, unknowns, unknowns>::Identity();
@@ -305,9 +288,9 @@ class TendonSection {
     }
   }
 
-  const Tendons tendons_;
+  const Tendons& tendons_;
   const Vector<double, D>& rest_translation_mm_;
-  Eigen::Matrix<Parameter, unknowns, 1> compliance_, rest_;
+  Eigen::Matrix<double, unknowns, 1> compliance_, rest_;
   Eigen::Matrix<T, unknowns, unknowns> factors_;
   std::array<Series, scene::max_tendon_offsets> series_;  // on the stack, touched only as far as there are tendons
   bool collapsed_ = false;

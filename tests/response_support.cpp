@@ -38,7 +38,7 @@ SolvedRod::SolvedRod(Scene scene, std::vector<int> arcs_per_span, fam::Law law)
       rod_(std::make_unique<fam::BasicBoundaryValue<3>>(spans_, arcs_per_span_, law, model_of(scene_))),
       converged_(rod_->run() == scene::Status::converged) {
   const fam::SolvedRod<3> solution = solved();
-  response_.reserve(solution.arcs.size(), spans_.size());
+  response_.reserve(solution.arcs.size(), spans_.size(), scene::max_tendon_offsets);
   response_.set(
       {&scene_, spans_, arcs_per_span_, solution.poses, solution.distal_wrenches_S, solution.law, solution.model});
 }
