@@ -187,8 +187,9 @@ ArcVariation<N> vary(Law law, const BasicArcConstants<3>& arc, const ArcForces<d
                      const SectionWrench& wrench, const ArcChange<N>& change) {
   StepVariation<N> step;
   if (law != Law::sixth_order) step = vary_by_threes<with_shear, N>(law, arc, forces, wrench, change);
-  else if (N == 9 || (N == 3 && forces)) step = vary_by_series<with_shear, N == 6 ? 6 : 7, N>(arc, forces, wrench, change);
-  else step = vary_by_series<with_shear, N == 9 ? 7 : 6, N>(arc, forces, wrench, change);
+  else if (N == 9 || (N == 3 && forces))
+    step = vary_by_series < with_shear, N == 6 ? 6 : 7, N > (arc, forces, wrench, change);
+  else step = vary_by_series < with_shear, N == 9 ? 7 : 6, N > (arc, forces, wrench, change);
   ArcVariation<N> result;
   vary_motion<N>(step.screw, step.screw_slopes, result);
   if (forces) vary_gain<N>(step, wrench, change, result);

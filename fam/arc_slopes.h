@@ -1,5 +1,5 @@
-// How the step of a coupled law over one arc varies: with the wrench and the forces that it meets at its distal end, and
-// with its section's constants. Derivatives of the step itself, not of the rod: exact to round-off.
+// How the step of a coupled law over one arc varies: with the wrench and the forces that it meets at its distal end,
+// and with its section's constants. Derivatives of the step itself, not of the rod: exact to round-off.
 #pragma once
 
 #include "fam/arc_section.h"

@@ -121,14 +121,13 @@ Response::Section Response::inside(const Source& source, const Place& place, con
   const double length_mm = place.part * arc_length_mm(place.span);
   const Matrix3d& R = distal.rotation_BS;
   ArcChange<3> change = distal.change_S();
-  change.fixed_D_N =
-      R.transpose() * skew(length_mm * solution_.spans[place.span].fixed_force_B_N_per_mm) * distal.turn;
+  change.fixed_D_N = R.transpose() * skew(length_mm * solution_.spans[place.span].fixed_force_B_N_per_mm) * distal.turn;
   add_source(source, place.span, length_mm, R, change);
   set_constants(place.span, length_mm);
   const ArcForces<double, 3> forces = forces_on(place.span, length_mm, R);
   const bool with_forces = has_forces(place.span) || brings_forces(source, place.span);
-  const ArcVariation<3> part = vary_arc(solution_.law, solution_.model, constants_, with_forces ? &forces : nullptr,
-                                        distal.wrench_S(), change);
+  const ArcVariation<3> part =
+      vary_arc(solution_.law, solution_.model, constants_, with_forces ? &forces : nullptr, distal.wrench_S(), change);
 
   Section at;
   const Vector3d way = R * part.way_D_mm, gain_N = R * part.gain_D.force_N, gain_Nmm = R * part.gain_D.moment_Nmm;

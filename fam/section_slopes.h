@@ -1,9 +1,9 @@
 // A section's compliance, its tendons included, along an arc: what a change of the wrench does to the strain.
 //
 // With the strain X = (u, v) h, its tendons' t = v + u x r = B X and their directions d = t/|t| (fam/tendon.h) a change
-// of the wrench W = (m, n) gives dX = A dW, (I + C S) A = C, S = sum T/|t| B^T (1 - d d^T) B. Taylor series of all of them
-// along the arc follow from that of X. Changes of constants are changes of W, as the strain feels them: K of the rest
-// curvature, -(u - u0) of the stiffness K, -B^T d of a tension.
+// of the wrench W = (m, n) gives dX = A dW, (I + C S) A = C, S = sum T/|t| B^T (1 - d d^T) B. Taylor series of all of
+// them along the arc follow from that of X. Changes of constants are changes of W, as the strain feels them: K of the
+// rest curvature, -(u - u0) of the stiffness K, -B^T d of a tension.
 #pragma once
 
 #include "fam/arc_section.h"
@@ -114,7 +114,7 @@ class SectionSlopes {
  private:
   void add(const BasicTendon<3>& tendon) {
     const TendonSeries<terms> series(tendon.arm_mm, rotation_, translation_);
-    std::array<double, terms> pull;    // T/|t|
+    std::array<double, terms> pull;      // T/|t|
     std::array<Matrix3d, terms> across;  // 1 - d d^T
     const Matrix3d arm = skew(tendon.arm_mm);
     for (std::size_t k = 0; k < terms; ++k) {

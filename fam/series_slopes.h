@@ -111,7 +111,8 @@ template <bool with_shear, int N, std::size_t terms>
 ScrewSlopes<N> magnus_slopes(const RodSeries<double, 3, terms>& s, const SeriesSlopes<N, terms>& d) {
   const Slopes3<N> zero = Slopes3<N>::Zero();
   Screw a1{weighted(s.rotation, a1_weights), s.translation_mm[0]};
-  Screw a2{weighted(s.rotation, a2_weights, 1), Vector3d::Zero()}, a3{weighted(s.rotation, a3_weights, 2), Vector3d::Zero()};
+  Screw a2{weighted(s.rotation, a2_weights, 1), Vector3d::Zero()},
+      a3{weighted(s.rotation, a3_weights, 2), Vector3d::Zero()};
   ScrewSlopes<N> di{weighted(d.rotation, strain_weights), zero}, d1{weighted(d.rotation, a1_weights), zero},
       d2{weighted(d.rotation, a2_weights, 1), zero}, d3{weighted(d.rotation, a3_weights, 2), zero};
   if constexpr (with_shear) {

@@ -1,7 +1,5 @@
 #include "response_support.h"
 
-#include "fam/load_length.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,14 +8,6 @@ namespace support {
 
 using Eigen::Vector3d;
 using scene::Scene;
-
-namespace {
-
-std::vector<int> cells(const std::vector<scene::Span>& spans, int arcs) {
-  return scene::cells_per_span(spans, arcs);
-}
-
-}  // namespace
 
 scene::RodModel model_of(const Scene& scene) {
   for (const scene::Section& section : scene.sections) {
@@ -28,7 +18,7 @@ scene::RodModel model_of(const Scene& scene) {
 }
 
 SolvedRod::SolvedRod(Scene scene, int arcs, fam::Law law)
-    : SolvedRod(scene, cells(scene::spans_of(scene), arcs), law) {}
+    : SolvedRod(scene, scene::cells_per_span(scene::spans_of(scene), arcs), law) {}
 
 SolvedRod::SolvedRod(Scene scene, std::vector<int> arcs_per_span, fam::Law law)
     : scene_(std::move(scene)),
@@ -132,11 +122,7 @@ Vector6 derivative(fam::Response& response, const fam::Parameter& parameter, dou
 
 namespace {
 
-Vector6 central(const SolvedRod& rod, const fam::Parameter& parameter, double s_mm, What what, double step) {
-  const auto solved = [&](double change) {
-    return SolvedRod(changed(rod.scene(), parameter, change), rod.arcs_per_span(), rod.law());
-  };
-  const SolvedRod more = solved(step), less = solved(-step);
+Vector6 change_between(const SolvedRod& more, const SolvedRod& less, double s_mm, What what) {
   if (!more.converged() || !less.converged()) return Vector6::Constant(std::numeric_limits<double>::quiet_NaN());
   const auto a = more.section(s_mm), b = less.section(s_mm);
   Vector6 result;
@@ -149,16 +135,32 @@ Vector6 central(const SolvedRod& rod, const fam::Parameter& parameter, double s_
   } else {
     result << a.own_B.force_N - b.own_B.force_N, a.own_B.moment_Nmm - b.own_B.moment_Nmm;
   }
-  return result / (2 * step);
+  return result;
+}
+
+bool is_slack_tendon(const Scene& scene, const fam::Parameter& parameter) {
+  if (parameter.kind != Kind::load) return false;
+  const auto* tendon = std::get_if<scene::Tendon>(&scene.loads[parameter.index]);
+  return tendon && tendon->tension_N == 0;
 }
 
 }  // namespace
 
-Vector6 difference(const SolvedRod& rod, const fam::Parameter& parameter, double s_mm, What what,
-                   double relative_step) {
-  const double step = relative_step * step_of(rod.scene(), parameter);
-  const Vector6 wide = central(rod, parameter, s_mm, what, step), half = central(rod, parameter, s_mm, what, step / 2);
-  return (4 * half - wide) / 3;
+// Of a slack tendon, which cannot push, towards more tension: three steps.
+Vector6 difference(const SolvedRod& rod, const fam::Parameter& parameter, double s_mm, What what) {
+  const auto solved = [&](double change) {
+    return SolvedRod(changed(rod.scene(), parameter, change), rod.arcs_per_span(), rod.law());
+  };
+  double step = step_of(rod.scene(), parameter);
+  if (is_slack_tendon(rod.scene(), parameter)) {
+    step *= 0.1;
+    const SolvedRod start = solved(0);
+    const auto forward = [&](double h) -> Vector6 { return change_between(solved(h), start, s_mm, what) / h; };
+    const Vector6 wide = forward(step), half = forward(step / 2), quarter = forward(step / 4);
+    return (4 * (2 * quarter - half) - (2 * half - wide)) / 3;
+  }
+  const auto central = [&](double h) -> Vector6 { return change_between(solved(h), solved(-h), s_mm, what) / (2 * h); };
+  return (4 * central(step / 2) - central(step)) / 3;
 }
 
 }  // namespace support

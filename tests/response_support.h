@@ -53,8 +53,7 @@ double step_of(const scene::Scene& scene, const fam::Parameter& parameter);
 std::vector<fam::Parameter> parameters_of(const scene::Scene& scene);
 
 Vector6 derivative(fam::Response& response, const fam::Parameter& parameter, double s_mm, What what);
-// NaN where a changed rod is not solved. `relative_step` times step_of().
-Vector6 difference(const SolvedRod& rod, const fam::Parameter& parameter, double s_mm, What what,
-                   double relative_step = 1);
+// NaN where a changed rod is not solved.
+Vector6 difference(const SolvedRod& rod, const fam::Parameter& parameter, double s_mm, What what);
 
 }  // namespace support

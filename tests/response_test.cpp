@@ -19,7 +19,6 @@ using scene::DistributedForce, scene::Force, scene::Frame, scene::Gravity, scene
 
 namespace {
 
-constexpr What all[] = {What::pose, What::strain, What::wrench};
 const char* const names[] = {"pose", "strain", "wrench"};
 
 // The largest difference over the largest entry, rows of positions and of turns (u and v, forces and moments) apart;
@@ -60,7 +59,7 @@ double check_mismatch(const Scene& scene, const nlohmann::json& check) {
     const Eigen::MatrixXd values = matrix_of(expected);
     largest = std::max(largest, (block - values).cwiseAbs().maxCoeff() / values.cwiseAbs().maxCoeff());
   };
-  for (const auto& load : check.at("loads")) 
+  for (const auto& load : check.at("loads"))
     compare(rod.response().by_load(load.at("load"), tip, What::pose), load.at("tip"));
   for (const auto& section : check.at("sections")) {
     const std::size_t i = section.at("section");
@@ -115,12 +114,16 @@ Scene with_tendons(Scene scene, double tension_N) {
   return scene;
 }
 
-// The kernel's derivatives against differences of its own solutions of changed scenes.
-void expect_differences(SolvedRod& rod, double limit, std::initializer_list<What> whats = {What::pose, What::strain,
-                                                                                           What::wrench}) {
+// The kernel's derivatives against differences of its own solutions of changed scenes. Those by places are the rod's,
+// not the arcs', whose lengths change with them: left out where arcs are few.
+enum class Arcs { few, many };
+void expect_differences(SolvedRod& rod, Arcs arcs,
+                        std::initializer_list<What> whats = {What::pose, What::strain, What::wrench}) {
+  constexpr double limit = 1e-6;
   ASSERT_TRUE(rod.converged());
   const double L = rod.length_mm();
   for (const fam::Parameter& parameter : parameters_of(rod.scene())) {
+    if (arcs == Arcs::few && parameter.kind == Kind::place) continue;
     const double step = step_of(rod.scene(), parameter);
     for (const double share : {0.317, 1.0}) {
       for (const What what : whats) {
@@ -143,53 +146,52 @@ void expect_differences(SolvedRod& rod, double limit, std::initializer_list<What
 TEST(Derivatives, AreThoseOfTheDiscreteRod) {
   for (const Law law : {Law::midpoint, Law::fourth_order, Law::sixth_order}) {
     SolvedRod kirchhoff(everything(rigid_in_shear(), 1), 30, law), reissner(everything(soft(), 1), 30, law);
-    expect_differences(kirchhoff, 1e-6, {What::pose});
-    expect_differences(reissner, 1e-6, {What::pose});
+    expect_differences(kirchhoff, Arcs::few, {What::pose});
+    expect_differences(reissner, Arcs::few, {What::pose});
   }
 }
 TEST(Derivatives, OfStrainsAndWrenches) {
   SolvedRod kirchhoff(everything(rigid_in_shear(), 1), 80), reissner(everything(soft(), 1), 80);
-  expect_differences(kirchhoff, 1e-6);
-  expect_differences(reissner, 1e-6);
+  expect_differences(kirchhoff, Arcs::many);
+  expect_differences(reissner, Arcs::many);
 }
 TEST(Derivatives, OfTendons) {
   SolvedRod kirchhoff(with_tendons(everything(rigid_in_shear(), 1), 2), 80);
   SolvedRod reissner(with_tendons(everything(soft(), 1), 2), 80);
   SolvedRod by_midpoint(with_tendons(everything(soft(), 1), 2), 30, Law::midpoint);
-  expect_differences(kirchhoff, 1e-6);
-  expect_differences(reissner, 1e-6);
-  expect_differences(by_midpoint, 1e-6, {What::pose});
+  expect_differences(kirchhoff, Arcs::many);
+  expect_differences(reissner, Arcs::many);
+  expect_differences(by_midpoint, Arcs::few, {What::pose});
 }
 // Loads of zero, slack tendons among them.
 TEST(Derivatives, OfLoadsOfZero) {
   SolvedRod kirchhoff(with_tendons(everything(rigid_in_shear(), 0), 0), 80);
   SolvedRod reissner(with_tendons(everything(soft(), 0), 0), 80);
-  expect_differences(kirchhoff, 1e-6);
-  expect_differences(reissner, 1e-6);
+  expect_differences(kirchhoff, Arcs::many);
+  expect_differences(reissner, Arcs::many);
 }
 TEST(Derivatives, OfAPlanarRodOutOfItsPlane) {
   Scene scene = uniform_rod(100, rigid_in_shear(), {Force{100, Frame::fixed, {-0.1, 0.2, 0}}, Tendon{{3, 0}, 1, 100}});
   SolvedRod rod(scene, 60);
-  expect_differences(rod, 1e-6);
+  expect_differences(rod, Arcs::many);
 }
 
-// A fixed force at the tip, and its moment about the clamp, arrive there whole.
+// A fixed wrench at the tip arrives at the clamp whole: its force, and its moment there with that of the tip's way
+// under the force that it had. Limit: round-off of the carried wrench.
 TEST(Derivatives, BalanceTheLoads) {
-  Scene scene = everything(soft(), 1);
-  std::erase_if(scene.loads, [](const scene::Load& load) {
-    const auto* force = std::get_if<Force>(&load);
-    const auto* moment = std::get_if<Moment>(&load);
-    const auto* along = std::get_if<DistributedForce>(&load);
-    return (force && force->frame == Frame::follower) || (moment && moment->frame == Frame::follower) ||
-           (along && along->frame == Frame::follower);
-  });
-  SolvedRod rod(scene, 80);
+  const Vector3d force_N(-0.05, 0.2, 0.1);
+  SolvedRod rod(uniform_rod(100, soft(), {Force{100, Frame::fixed, force_N}}), 40);
   const Eigen::Matrix<double, 6, 6> base = rod.response().compliance(0, What::wrench);
-  const Matrix3d zero = Matrix3d::Zero(), one = Matrix3d::Identity();
-  EXPECT_LE((base.topLeftCorner<3, 3>() - one).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_LE((base.topRightCorner<3, 3>() - zero).cwiseAbs().maxCoeff() * rod.length_mm(), 1e-10);
-  EXPECT_LE((base.bottomRightCorner<3, 3>() - one).cwiseAbs().maxCoeff(), 1) << "the loads' arms change";
-  EXPECT_LE(rod.response().compliance(0, What::pose).cwiseAbs().maxCoeff(), 1e-10);
+  const Eigen::Matrix<double, 6, 6> tip = rod.response().compliance(rod.length_mm(), What::pose);
+  const auto cross = [](const Vector3d& a) {
+    return (Matrix3d() << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0).finished();
+  };
+  Eigen::Matrix<double, 6, 6> expected = Eigen::Matrix<double, 6, 6>::Identity();
+  expected.bottomLeftCorner<3, 3>() = cross(rod.section(rod.length_mm()).pose.position_B_mm);
+  expected.bottomRows<3>() -= cross(force_N) * tip.topRows<3>();
+  EXPECT_LE((base - expected).topRows<3>().cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LE((base - expected).bottomRows<3>().cwiseAbs().maxCoeff(), 1e-12 * expected.cwiseAbs().maxCoeff());
+  EXPECT_LE(rod.response().compliance(0, What::pose).cwiseAbs().maxCoeff(), 1e-12 * tip.cwiseAbs().maxCoeff());
 }
 
 // Loads with an energy: the compliance is its second derivative's inverse. Limit: the 1e-8.
@@ -237,7 +239,8 @@ double exact_mismatch(const Scene& scene, int arcs) {
     const double step = step_of(scene, parameter);
     const auto central = [&](double h) -> Vector6 {
       const auto tip = [&](double change) {
-        return exact_reference::solve(changed(scene, parameter, change), {.model = model_of(scene), .tolerance = 1e-12});
+        return exact_reference::solve(changed(scene, parameter, change),
+                                      {.model = model_of(scene), .tolerance = 1e-12});
       };
       const auto more = tip(h), less = tip(-h);
       Vector6 result;
