@@ -32,10 +32,10 @@ void set_tendons(std::vector<BasicTendon<D>>& tendons, const SpanOnWay& span) {
 }  // namespace
 
 template <int D>
-void set_constants(BasicArcConstants<D>& arc, std::vector<BasicTendon<D>>& tendons, const SpanOnWay& span, int arcs,
-                   RodModel model) {
+void set_constants(BasicArcConstants<D>& arc, std::vector<BasicTendon<D>>& tendons, const SpanOnWay& span,
+                   double length_mm, RodModel model) {
   const scene::Stiffness& stiffness = span.to.stiffness;
-  const double h = span.to.length_mm() / arcs;
+  const double h = length_mm;
   const Vector3d bending_and_torsion(stiffness.torsion_Nmm2, stiffness.bending_Nmm2[0], stiffness.bending_Nmm2[1]);
   arc.length_mm = h;
   arc.angular_compliance = h * angular_part<D>(bending_and_torsion.cwiseInverse());
@@ -64,8 +64,8 @@ void set_share(BasicArcConstants<D>& arc, std::vector<BasicTendon<D>>& tendons, 
   }
 }
 
-template void set_constants(BasicArcConstants<2>&, std::vector<BasicTendon<2>>&, const SpanOnWay&, int, RodModel);
-template void set_constants(BasicArcConstants<3>&, std::vector<BasicTendon<3>>&, const SpanOnWay&, int, RodModel);
+template void set_constants(BasicArcConstants<2>&, std::vector<BasicTendon<2>>&, const SpanOnWay&, double, RodModel);
+template void set_constants(BasicArcConstants<3>&, std::vector<BasicTendon<3>>&, const SpanOnWay&, double, RodModel);
 template void set_share(BasicArcConstants<2>&, std::vector<BasicTendon<2>>&, const SpanOnWay&, RodModel);
 template void set_share(BasicArcConstants<3>&, std::vector<BasicTendon<3>>&, const SpanOnWay&, RodModel);
 

@@ -52,10 +52,10 @@ struct SpanOnWay {
   }
 };
 
-// Constants of the arcs of a span that is cut into `arcs`, whose tendons stand in a list of the caller's.
+// Constants of an arc of this length, whose tendons stand in a list of the caller's.
 template <int D>
-void set_constants(BasicArcConstants<D>& arc, std::vector<BasicTendon<D>>& tendons, const SpanOnWay& span, int arcs,
-                   RodModel model);
+void set_constants(BasicArcConstants<D>& arc, std::vector<BasicTendon<D>>& tendons, const SpanOnWay& span,
+                   double length_mm, RodModel model);
 // Of those, what depends on the share.
 template <int D>
 void set_share(BasicArcConstants<D>& arc, std::vector<BasicTendon<D>>& tendons, const SpanOnWay& span, RodModel model);

@@ -24,7 +24,7 @@ void Response::reserve(std::size_t arcs, std::size_t spans, std::size_t tendons)
   arcs_.resize(arcs);
   first_arcs_.reserve(spans + 1);
   section_of_span_.reserve(spans);
-  constants_.tendons.reserve(tendons);
+  tendons_.reserve(tendons);
   for (Sweep& sweep : sweeps_) sweep.nodes.resize(arcs);
 }
 

@@ -138,7 +138,8 @@ class Response {
   std::vector<std::size_t> first_arcs_, section_of_span_;  // one more first arc than spans
   std::array<Sweep, 8> sweeps_;
   unsigned long asked_ = 0;
-  BasicArcConstants<3> constants_;  // of the span in hand
+  BasicArcConstants<3> constants_;  // of the span in hand, with its tendons
+  std::vector<BasicTendon<3>> tendons_;
 };
 
 }  // namespace fam

@@ -72,21 +72,9 @@ void Response::add_source(const Source& source, std::size_t i, double length_mm,
   }
 }
 
-// As arc_constants, which allocates.
 void Response::set_constants(std::size_t i, double length_mm) {
   const scene::Span& span = solution_.spans[i];
-  const scene::Stiffness& stiffness = span.stiffness;
-  const Vector3d angular(stiffness.torsion_Nmm2, stiffness.bending_Nmm2[0], stiffness.bending_Nmm2[1]);
-  constants_.length_mm = length_mm;
-  constants_.angular_compliance = length_mm * angular.cwiseInverse();
-  constants_.rest_rotation = length_mm * span.rest_curvature_per_mm;
-  constants_.rest_translation_mm[0] = length_mm;
-  constants_.linear_compliance.setZero();
-  if (solution_.model == scene::RodModel::reissner) {
-    if (stiffness.axial_N) constants_.linear_compliance[0] = length_mm / *stiffness.axial_N;
-    if (stiffness.shear_N) constants_.linear_compliance.tail<2>() = length_mm * stiffness.shear_N->cwiseInverse();
-  }
-  set_tendons(constants_, span, solution_.model, 1);
+  fam::set_constants(constants_, tendons_, {span, span}, length_mm, solution_.model);
 }
 
 ArcForces<double, 3> Response::forces_on(std::size_t i, double length_mm, const Matrix3d& rotation_BS) const {

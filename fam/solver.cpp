@@ -1,6 +1,7 @@
 #include "fam/solver.h"
 
 #include "fam/answer.h"
+#include "fam/response.h"
 #include "fam/solution.h"
 #include "scene/load_visitor.h"
 
@@ -101,6 +102,12 @@ struct Solver::Impl {
     std::vector<scene::Pose> poses;
     std::vector<scene::Wrench> wrenches_B;
   } ends;  // of the arcs
+  Response response;
+  struct {
+    bool known = false;
+    std::vector<SectionPose> poses;
+    std::vector<SectionWrench> distal_wrenches_S;
+  } solved_states;  // that the response is asked about
   std::optional<double> error_mm;
   std::optional<std::optional<bool>> stable;
 
@@ -112,6 +119,7 @@ struct Solver::Impl {
   void choose_arcs(const Problem& problem);
   void accept(Attempt& attempt);
   void place_ends();
+  Response* prepared_response();
   double estimate_mm();
   bool is_on_rod(double s_mm) const { return solved && s_mm >= 0 && s_mm <= solved->problem.length_mm(); }
 };
@@ -137,6 +145,9 @@ void Solver::Impl::reserve() {
   }
   for (Run& run : spare) run.reserve(room, law);
   solution.reserve(room);
+  response.reserve(room.arcs, room.spans, room.tendons);
+  solved_states.poses.reserve(room.arcs + 1);
+  solved_states.distal_wrenches_S.reserve(room.arcs);
   arcs.reserve(room.spans);
   shares.share.reserve(room.spans);
   shares.order.reserve(room.spans);
@@ -205,6 +216,7 @@ void Solver::Impl::accept(Attempt& attempt) {
   solution.set(attempt.problem, attempt.run);
   tip = solution.pose({solution.arc_count() - 1, 1});
   ends.known = false;
+  solved_states.known = false;
   error_mm.reset();
   stable.reset();
 }
@@ -220,6 +232,25 @@ void Solver::Impl::place_ends() {
     ends.wrenches_B.push_back(solution.own_wrench_B({arc, 1}));
   }
   ends.known = true;
+}
+
+// Null: no solution, or of a law without slopes.
+Response* Solver::Impl::prepared_response() {
+  if (!solved || !facts_of(solved->problem.choice().law).coupled) return nullptr;
+  if (solved_states.known) return &response;
+  auto& [known, poses, wrenches] = solved_states;
+  poses.assign(1, SectionPose{});
+  wrenches.clear();
+  for (int arc = 0; arc < solution.arc_count(); ++arc) {
+    const scene::Pose pose = solution.pose({arc, 1});
+    poses.push_back({pose.rotation_BS, pose.position_B_mm});
+    wrenches.push_back(solution.state({arc, 1}).wrench);
+  }
+  const Problem& problem = solved->problem;
+  response.set({&problem.scene(), problem.scene_spans(), solved->run.arcs, poses, wrenches, problem.choice().law,
+                problem.choice().rod.model});
+  known = true;
+  return &response;
 }
 
 // As solve() estimates: with a fixed number of arcs by the law's order, else with the first run's safety.
@@ -329,28 +360,56 @@ std::optional<bool> Solver::stable() const {
   return *impl_->stable;
 }
 
-#define FAM_NO_DERIVATIVE(Type, name, ...)                \
-  Solver::Type Solver::name(__VA_ARGS__) const noexcept { \
-    return Type::Constant(nan);                           \
+// Of a solution; NaN without one.
+template <class Answer, class Ask>
+Answer Solver::asked(Ask&& ask) const noexcept {
+  Response* response = impl_->prepared_response();
+  if (!response) return Answer::Constant(nan);
+  return ask(*response);
+}
+
+#define FAM_DERIVATIVES(prefix, what)                                                                   \
+  Solver::Matrix6 Solver::prefix##compliance(double s_mm) const noexcept {                              \
+    return asked<Matrix6>([=](Response& r) { return r.compliance(s_mm, what); });                       \
+  }                                                                                                     \
+  Solver::Matrix63 Solver::prefix##by_load(std::size_t load, double s_mm) const noexcept {              \
+    return asked<Matrix63>([=](Response& r) { return r.by_load(load, s_mm, what); });                   \
+  }                                                                                                     \
+  Solver::Matrix63 Solver::prefix##by_rest_curvature(std::size_t section, double s_mm) const noexcept { \
+    return asked<Matrix63>([=](Response& r) { return r.by_rest_curvature(section, s_mm, what); });      \
+  }                                                                                                     \
+  Solver::Matrix63 Solver::prefix##by_stiffness(std::size_t section, double s_mm) const noexcept {      \
+    return asked<Matrix63>([=](Response& r) { return r.by_stiffness(section, s_mm, what); });           \
+  }                                                                                                     \
+  Solver::Vector6 Solver::prefix##by_place(std::size_t load, double s_mm) const noexcept {              \
+    return asked<Vector6>([=](Response& r) { return Vector6(r.by_place(load, s_mm, what).col(0)); });   \
   }
-FAM_NO_DERIVATIVE(Matrix6, compliance, double)
-FAM_NO_DERIVATIVE(Matrix63, by_load, std::size_t, double)
-FAM_NO_DERIVATIVE(Matrix63, by_rest_curvature, std::size_t, double)
-FAM_NO_DERIVATIVE(Matrix63, by_stiffness, std::size_t, double)
-FAM_NO_DERIVATIVE(Vector6, by_place, std::size_t, double)
-FAM_NO_DERIVATIVE(Matrix6, strain_compliance, double)
-FAM_NO_DERIVATIVE(Matrix63, strain_by_load, std::size_t, double)
-FAM_NO_DERIVATIVE(Matrix63, strain_by_rest_curvature, std::size_t, double)
-FAM_NO_DERIVATIVE(Matrix63, strain_by_stiffness, std::size_t, double)
-FAM_NO_DERIVATIVE(Vector6, strain_by_place, std::size_t, double)
-FAM_NO_DERIVATIVE(Matrix6, wrench_compliance, double)
-FAM_NO_DERIVATIVE(Matrix63, wrench_by_load, std::size_t, double)
-FAM_NO_DERIVATIVE(Matrix63, wrench_by_rest_curvature, std::size_t, double)
-FAM_NO_DERIVATIVE(Matrix63, wrench_by_stiffness, std::size_t, double)
-FAM_NO_DERIVATIVE(Vector6, wrench_by_place, std::size_t, double)
-void Solver::jacobian(std::span<const double>, std::span<const Parameter>,
+FAM_DERIVATIVES(, Response::What::pose)
+FAM_DERIVATIVES(strain_, Response::What::strain)
+FAM_DERIVATIVES(wrench_, Response::What::wrench)
+#undef FAM_DERIVATIVES
+
+void Solver::jacobian(std::span<const double> s_mm, std::span<const Parameter> parameters,
                       Eigen::Ref<Eigen::MatrixXd> result) const noexcept {
-  result.setConstant(nan);
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const Parameter& parameter = parameters[k];
+    for (std::size_t i = 0; i < s_mm.size(); ++i) {
+      result.block<6, 1>(static_cast<Eigen::Index>(6 * i), static_cast<Eigen::Index>(k)) = by(parameter, s_mm[i]);
+    }
+  }
+}
+
+Solver::Vector6 Solver::by(const Parameter& parameter, double s_mm) const noexcept {
+  using enum Parameter::Kind;
+  const int component = parameter.component;
+  if (component < 0 || component > 2) return Vector6::Constant(nan);
+  switch (parameter.kind) {
+    case load: return by_load(parameter.index, s_mm).col(component);
+    case rest_curvature: return by_rest_curvature(parameter.index, s_mm).col(component);
+    case stiffness: return by_stiffness(parameter.index, s_mm).col(component);
+    case place: break;
+  }
+  return component == 0 ? by_place(parameter.index, s_mm) : Vector6::Constant(nan);
 }
 
 }  // namespace fam

@@ -31,7 +31,7 @@ struct SpanArcs {
     distributed = is_distributed(span.from) || is_distributed(span.to);
     first_arc = first;
     end_arc = first + count;
-    set_constants(constants, tendons_, span, count, model);
+    set_constants(constants, tendons_, span, span.to.length_mm() / count, model);
     set_loads(span);
   }
 

@@ -23,10 +23,12 @@ SolvedRod::SolvedRod(Scene scene, int arcs, fam::Law law)
 SolvedRod::SolvedRod(Scene scene, std::vector<int> arcs_per_span, fam::Law law)
     : scene_(std::move(scene)),
       spans_(scene::spans_of(scene_)),
+      loads_(spans_),
       arcs_per_span_(std::move(arcs_per_span)),
       law_(law),
-      rod_(std::make_unique<fam::BasicBoundaryValue<3>>(spans_, arcs_per_span_, law, model_of(scene_))),
-      converged_(rod_->run() == scene::Status::converged) {
+      rod_(std::make_unique<fam::BasicBoundaryValue<3>>()) {
+  rod_->set(loads_.way(), arcs_per_span_, law, model_of(scene_));
+  converged_ = rod_->run() == scene::Status::converged;
   const fam::SolvedRod<3> solution = solved();
   response_.reserve(solution.arcs.size(), spans_.size(), scene::max_tendon_offsets);
   response_.set(
@@ -39,7 +41,8 @@ fam::BasicShape<3>::Section SolvedRod::section(double s_mm) const {
   while (i + 1 < spans_.size() && s_mm > spans_[i].end_mm * (1 + 1e-12)) ++i;
   const double arcs = (s_mm - spans_[i].start_mm) / spans_[i].length_mm() * arcs_per_span_[i];
   const double last = std::clamp(std::ceil(arcs - 1e-9), 1.0, static_cast<double>(arcs_per_span_[i]));
-  const fam::BasicShape<3> shape(solved());
+  fam::BasicShape<3> shape;
+  shape.set(solved());
   return shape.section(solved().spans[i].first_arc + static_cast<int>(last) - 1, std::min(1.0, arcs - last + 1));
 }
 
