@@ -1,4 +1,5 @@
 // fam-studies: everything that compares. `fam-studies --help`, `fam-studies --list` and docs/commands.md say more.
+#include "allocation_counter.h"
 #include "apps/solve_command.h"
 #include "scene/scene_file.h"
 #include "studies/methods/fam_method.h"
@@ -121,6 +122,7 @@ int main(int argc, char** argv) {
   StudyArguments arguments;
   arguments.options.cases = STUDIES_DIR "/cases";
   arguments.options.pages = STUDIES_DIR;
+  arguments.options.allocations = allocation_count;
   arguments.options.data = STUDY_DATA_DIR;
   for (const studies::Study& study : studies::all_studies()) {
     add_study_options(app.add_subcommand(study.command(), study.question), arguments);

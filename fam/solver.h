@@ -79,8 +79,8 @@ class Solver {
   scene::Wrench base_wrench_B() const;
   // At the arcs' ends, clamp to tip; empty before a solution.
   std::span<const double> s_mm() const;
-  std::span<const scene::Pose> poses() const;          // X_BS
-  std::span<const scene::Wrench> wrenches_B() const;   // the rod's own, as scene::Station has them
+  std::span<const scene::Pose> poses() const;         // X_BS
+  std::span<const scene::Wrench> wrenches_B() const;  // the rod's own, as scene::Station has them
   // Anywhere, as accurate as at the arcs' ends.
   scene::Pose pose_at(double s_mm) const noexcept;
   scene::Wrench wrench_at(double s_mm) const noexcept;
@@ -89,8 +89,8 @@ class Solver {
   // Whether the equilibrium is a minimum of the energy; empty: the loads have none, or not decided.
   std::optional<bool> stable() const;
 
-  // Derivatives of the pose at s: 6 rows, d position_B (mm) and d rotation_B (rad; dR R^T = [d rotation_B]x), the loads
-  // at rest but for the one named.
+  // Derivatives of the pose at s: 6 rows, d position_B (mm) and d rotation_B (rad; dR R^T = [d rotation_B]x), all
+  // else held. NaN also for the law `published`.
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   using Matrix63 = Eigen::Matrix<double, 6, 3>;
   using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -115,7 +115,13 @@ class Solver {
   void jacobian(std::span<const double> s_mm, std::span<const Parameter> parameters,
                 Eigen::Ref<Eigen::MatrixXd> result) const noexcept;
 
+  // Of the pose, by one of them.
+  Vector6 by(const Parameter& parameter, double s_mm) const noexcept;
+
  private:
+  template <class Answer, class Ask>
+  Answer asked(Ask&& ask) const noexcept;
+
   struct Impl;
   explicit Solver(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;

@@ -16,6 +16,7 @@ struct StudyOptions {
   std::filesystem::path pages;               // folder of the studies' folders with their page.md
   bool quick = false;                        // the smallest setting that still runs every line
   Progress::Style progress = Progress::Style::lines;
+  std::size_t (*allocations)() = nullptr;  // so far, where the program counts them
 };
 
 // The time of a solve; with --quick one run, of which nothing is claimed.

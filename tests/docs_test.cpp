@@ -6,10 +6,11 @@
 //   sh                  each line is run with the programs on PATH; its exit status is 0, or as `# exit status 2` says;
 //                       what they print is compared with the `text` block that follows, if one does; ... in it stands
 //                       for any text
-//   cpp, python, cmake  left alone: not for the programs
+//   cpp, python, cmake  left alone: tests/library_page_test.cpp builds and runs them
 // Rows `| path | value | rule |` of a table headed "refused at": the first scene of the page with that value at that
 // path, "(missing)" for none, is refused with `wrong.json: path = value: rule`.
 #include "commands.h"
+#include "page_blocks.h"
 
 #include "scene/equilibrium.h"
 #include "scene/scene_file.h"
@@ -27,59 +28,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace commands;
+using namespace page_blocks;
 using nlohmann::json;
 
 const fs::path project = PROJECT_FOLDER;
-
-struct Block {
-  int line;
-  std::string info, text;
-  bool follows_directly;  // nothing but empty lines between it and the block before
-};
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::istringstream input(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(input, line);) lines.push_back(line);
-  return lines;
-}
-
-std::vector<Block> blocks_of(const std::string& page) {
-  std::vector<Block> blocks;
-  bool inside = false, direct = false;
-  int number = 0;
-  for (const std::string& line : lines_of(page)) {
-    ++number;
-    if (line.rfind("```", 0) == 0) {
-      if (!inside) blocks.push_back({number, line.substr(3), "", direct});
-      inside = !inside;
-      direct = true;
-    } else if (inside) {
-      blocks.back().text += line + "\n";
-    } else if (!line.empty()) {
-      direct = false;
-    }
-  }
-  if (inside) blocks.push_back({number, "(a block without its end)", "", false});
-  return blocks;
-}
-
-// Whether `printed` is `expected`, in which ... stands for any text.
-bool matches(const std::string& expected, const std::string& printed) {
-  std::size_t at = 0, from = 0;
-  for (bool first = true;; first = false) {
-    const std::size_t dots = expected.find("...", from);
-    const std::string piece = expected.substr(from, dots - from);
-    const bool last = dots == std::string::npos;
-    if (first && printed.compare(0, piece.size(), piece) != 0) return false;
-    if (first && last) return printed.size() == piece.size();
-    if (last) return printed.size() >= at + piece.size() && printed.ends_with(piece);
-    const std::size_t found = printed.find(piece, at);
-    if (found == std::string::npos) return false;
-    at = found + piece.size();
-    from = dots + 3;
-  }
-}
 
 // The examples of one page, run.
 class Examples {
@@ -446,8 +398,8 @@ TEST_F(Docs, ReadmeGivesTheErrorsOfStudy1) {
 // Links lead somewhere, and what stands in the words of these pages as a path in the project is one.
 TEST_F(Docs, LinksAndPathsExist) {
   int links = 0, paths = 0;
-  for (const std::string name :
-       {"README.md", "CONTRIBUTING.md", "docs/scene_format.md", "docs/commands.md", "docs/frames.svg"}) {
+  for (const std::string name : {"README.md", "CONTRIBUTING.md", "docs/scene_format.md", "docs/commands.md",
+                                 "docs/library.md", "docs/frames.svg", "docs/library.svg"}) {
     ASSERT_TRUE(fs::exists(project / name)) << name;
     const std::string page = contents(project / name);
     const fs::path folder = (project / name).parent_path();
