@@ -1,13 +1,17 @@
-// fam: one scene, at once. `fam solve SCENE`; `fam solve --help` and docs/commands.md say more.
-#include "apps/solve_command.h"
+// fam: `fam solve SCENE`, one scene, at once; `fam batch SCENE`, many values of its loads. `fam --help` and
+// docs/commands.md say more.
+#include "apps/batch_command.h"
 #include "studies/methods/fam_method.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"The finite arc method: the static shape of a clamped slender rod", "fam"};
   app.require_subcommand(1);
-  apps::SolveArguments arguments;
-  apps::add_solve_command(app, arguments);
+  apps::SolveArguments solve;
+  apps::add_solve_command(app, solve);
+  apps::BatchArguments batch;
+  const CLI::App* batch_command = apps::add_batch_command(app, batch);
   return apps::run(app, argc, argv, [&] {
-    return apps::run_solve(arguments, [](const apps::SolveArguments& a) { return studies::fam_method(a.fam); });
+    if (batch_command->parsed()) return apps::run_batch(batch);
+    return apps::run_solve(solve, [](const apps::SolveArguments& a) { return studies::fam_method(a.fam); });
   });
 }

@@ -50,24 +50,28 @@ void add_choice(CLI::App* command, const std::string& option, Value& target, con
 
 }  // namespace
 
-CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments) {
-  fam::Options& options = arguments.fam;
-  CLI::App* solve = app.add_subcommand("solve", "Solve one scene");
-  solve->add_option("scene", arguments.scene_path, "Scene file (JSON), or - for standard input")->required();
-  auto* tolerance = solve->add_option("--tolerance-mm", options.tolerance_mm,
-                                      "Largest error of any place along the rod, mm (default: 1e-3 of the length)");
+void add_scene_and_options(CLI::App* command, std::string& scene_path, fam::Options& options) {
+  command->add_option("scene", scene_path, "Scene file (JSON), or - for standard input")->required();
+  auto* tolerance = command->add_option("--tolerance-mm", options.tolerance_mm,
+                                        "Largest error of any place along the rod, mm (default: 1e-3 of the length)");
   tolerance->check(CLI::Validator(not_positive, "> 0"));
-  solve->add_option("--arcs", options.arcs, "Number of arcs (default: as many as the tolerance takes)")
+  command->add_option("--arcs", options.arcs, "Number of arcs (default: as many as the tolerance takes)")
       ->check(CLI::Range(1, fam::max_arcs))
       ->excludes(tolerance);
   std::map<std::string, fam::Law> laws{{fam::name(fam::Law::automatic), fam::Law::automatic}};
   for (const fam::Law law : fam::all_laws()) laws.emplace(fam::name(law), law);
-  add_choice(solve, "--law", options.law, "Arc law (default: auto, which is sixth_order)", laws);
-  add_choice<fam::RodModel>(solve, "--model", options.model,
+  add_choice(command, "--law", options.law, "Arc law (default: auto, which is sixth_order)", laws);
+  add_choice<fam::RodModel>(command, "--model", options.model,
                             "Rod model (default: auto, without shear where it does not matter)",
                             {{"auto", fam::RodModel::automatic},
                              {"kirchhoff", fam::RodModel::kirchhoff},
                              {"reissner", fam::RodModel::reissner}});
+}
+
+CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments) {
+  fam::Options& options = arguments.fam;
+  CLI::App* solve = app.add_subcommand("solve", "Solve one scene");
+  add_scene_and_options(solve, arguments.scene_path, options);
   add_choice<fam::TwistOrder>(
       solve, "--twist-order", options.twist_order, "Published law: order of its rotations (default: bend_twist)",
       {{"bend_twist", fam::TwistOrder::bend_twist}, {"twist_bend", fam::TwistOrder::twist_bend}});

@@ -21,6 +21,9 @@ struct SolveArguments {
   std::string svg_path;
 };
 
+// The scene, --tolerance-mm, --arcs, --law, --model.
+void add_scene_and_options(CLI::App* command, std::string& scene_path, fam::Options& options);
+
 // Adds `solve` with the options that every method has.
 CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments);
 

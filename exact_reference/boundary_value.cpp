@@ -21,8 +21,7 @@ constexpr double largest_miss_rad = 0.1;  // corrected against predicted rotatio
 constexpr double largest_turn_rad = 0.8;  // of any section in a load step
 constexpr double first_turn_rad = 0.1;
 constexpr int most_load_steps = 3000;
-constexpr double most_work =
-    500'000;  // intervals, summed over Newton's iterations: seconds; all our scenes need 26 000
+constexpr double most_work = 300'000;       // intervals linearised: seconds
 constexpr double most_rest_turn_rad = 1e4;  // two intervals a radian, and so seconds, too
 constexpr double collapsed_tangent = 1e-4;  // of a tendon where the load cannot grow
 constexpr double smallest_step = 1e-8;      // of the load reached or of the first step, whichever is larger
@@ -42,7 +41,6 @@ struct Path {
   int steps = 0;
   int newton_iterations = 0;
   std::size_t fewest_intervals = shooting.mesh().size();
-  double work = 0;
   bool tendon_collapsed = false;  // in the last iteration
   bool watch_stability = false;   // conservative, and stable so far
   scene::Symmetry symmetry = scene::Symmetry::none;
@@ -50,14 +48,16 @@ struct Path {
   scene::BranchWatch branch = {};  // by the determinant of the equations' derivatives
 
   Convergence newton(NodeStates& states, double load_factor, double tolerance, int max_iterations) {
+    const double left = std::max(0.0, most_work_here() - shooting.work()) / static_cast<double>(shooting.mesh().size());
+    max_iterations = std::min(max_iterations, 1 + static_cast<int>(std::min(left, 100.0)));
     const Convergence result = shooting.newton(states, load_factor, tolerance, max_iterations);
     newton_iterations += result.iterations;
     tendon_collapsed = result.tendon_collapsed;
-    work += static_cast<double>(result.iterations) * static_cast<double>(shooting.mesh().size());
     return result;
   }
 
-  bool exhausted() const { return work > most_work + 100 * static_cast<double>(fewest_intervals); }
+  double most_work_here() const { return most_work + 100 * static_cast<double>(fewest_intervals); }
+  bool exhausted() const { return shooting.work() > most_work_here(); }
 };
 
 // Beside a buckling or turning point the branches lie too close to be told apart by their distance: a step whose
@@ -243,6 +243,21 @@ std::string text(const char* format, double value) {
   return buffer;
 }
 
+scene::Equilibrium stopped(const ScaledRod& rod, const Path& path) {
+  scene::Equilibrium result;
+  result.status = scene::Status::load_step_too_small;
+  result.message =
+      text("no equilibrium found next to the one at %.6g of the load: a fold, or too large a load", path.load);
+  if (path.tendon_collapsed || shortest_tendon_tangent(rod, path) < collapsed_tangent) {
+    result.status = scene::Status::tendon_collapsed;
+    result.message = text("the path of a tendon has no length somewhere beyond %.6g of the load", path.load);
+  } else if (path.exhausted() || path.steps > most_load_steps) {
+    result.status = scene::Status::work_limit;
+    result.message = text("given up at %.6g of the load: a rod that turns so much takes too many steps", path.load);
+  }
+  return result;
+}
+
 }  // namespace
 
 scene::Equilibrium solve_boundary_value(const ScaledRod& rod, double tolerance) {
@@ -257,20 +272,9 @@ scene::Equilibrium solve_boundary_value(const ScaledRod& rod, double tolerance) 
   path.load_size = rod.load_size();
   path.watch_stability = !rod.has_follower_load() && !rod.has_fixed_moment();
   path.y = path.shooting.unloaded();
-  if (!adapt(path, on_the_way) || !follow_load(path)) {
-    result.status = scene::Status::load_step_too_small;
-    result.message =
-        text("no equilibrium found next to the one at %.6g of the load: a fold, or too large a load", path.load);
-    if (path.tendon_collapsed || shortest_tendon_tangent(rod, path) < collapsed_tangent) {
-      result.status = scene::Status::tendon_collapsed;
-      result.message = text("the path of a tendon has no length somewhere beyond %.6g of the load", path.load);
-    } else if (path.exhausted() || path.steps > most_load_steps) {
-      result.status = scene::Status::work_limit;
-      result.message = text("given up at %.6g of the load: a rod that turns so much takes too many steps", path.load);
-    }
-    return result;
-  }
+  if (!adapt(path, on_the_way) || !follow_load(path)) return stopped(rod, path);
   const double error = solve_accurately(path, tolerance);
+  if (error < 0 && path.exhausted()) return stopped(rod, path);
   const double worst_error = std::max(1e-6, tolerance);  // beyond it the answer is not worth its name
   if (!(error >= 0 && error <= worst_error)) {
     result.status = scene::Status::not_converged;

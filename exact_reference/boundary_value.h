@@ -4,10 +4,11 @@
 // The load grows from nothing with a tangent predictor. A step is taken back and halved when Newton's iteration fails,
 // when it moves a section by more than 0.1 rad from the prediction, or when the step turns a section by more than
 // 0.8 rad; so the answer does not jump to another equilibrium. At a fold (the rod snaps) the step shrinks to nothing:
-// status load_step_too_small. work_limit: a load that takes more than 3000 steps or seconds of work. tendon_collapsed:
-// the load cannot grow because a tendon's path has no length somewhere. not_converged: a rest shape that turns by more
-// than 1e4 rad, or a fine mesh that does not settle. Exactly symmetric scenes stay symmetric: a straight rod under pure
-// compression stays straight beyond the Euler load, with stable = false.
+// status load_step_too_small. work_limit: more than 3000 load steps, or seconds of work (intervals linearised, on the
+// way and on the fine mesh). tendon_collapsed: the load cannot grow because a tendon's path has no length somewhere.
+// not_converged: a rest shape that turns by more than 1e4 rad, or a fine mesh that does not settle. Exactly symmetric
+// scenes stay symmetric: a straight rod under pure compression stays straight beyond the Euler load, with stable =
+// false.
 //
 // The mesh is refined where a step and two half steps differ and where what grows or decays along an interval is not
 // resolved (Shooting::volume_changes), which a taut straight rod does not show in its shape; then it is halved as a

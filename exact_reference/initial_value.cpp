@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace exact_reference {
 namespace {
@@ -177,7 +178,7 @@ std::vector<PlacedState> states_in_base_frame(const std::vector<double>& places,
   return states;
 }
 
-// Two marches, the second with a tenth of the first one's tolerance.
+// Two marches, `fine` with a tenth of the tolerance of `rough`.
 struct MarchPair {
   std::vector<double> places;
   March rough, fine;
@@ -203,7 +204,11 @@ MarchPair march_twice(const ScaledRod& rod, const std::vector<double>& places, d
   MarchPair pair;
   pair.places = places;
   pair.rough = march(rod, places, 10 * tolerance);
-  if (pair.rough.finished) pair.fine = march(rod, places, tolerance);
+  if (!pair.rough.finished) return pair;
+  pair.fine = march(rod, places, tolerance);
+  if (pair.fine.finished) return pair;
+  pair.fine = std::move(pair.rough);  // round-off can keep CVODE from the tighter one
+  pair.rough = march(rod, places, 100 * tolerance);
   return pair;
 }
 
@@ -230,9 +235,7 @@ scene::Equilibrium stopped(bool tendon_collapsed) {
 scene::Equilibrium solve_initial_value(const ScaledRod& rod, double tolerance) {
   const double cvode_tolerance = std::clamp(tolerance / 500, 2e-15, 1e-6);
   const std::vector<double> places = places_by_turn(rod);
-  MarchPair pair = march_twice(rod, places, cvode_tolerance);
-  // Round-off can keep CVODE from the tighter one.
-  if (!pair.finished()) pair = march_twice(rod, places, 10 * cvode_tolerance);
+  const MarchPair pair = march_twice(rod, places, cvode_tolerance);
   if (!pair.finished()) return stopped(pair.rough.tendon_collapsed || pair.fine.tendon_collapsed);
   const std::vector<PlacedState> states = states_in_base_frame(places, pair.fine);
   scene::Equilibrium result;

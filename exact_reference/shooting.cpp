@@ -96,10 +96,27 @@ std::vector<Core> Shooting::residual(const NodeStates& y, double load_factor) co
   return r;
 }
 
+const Shooting::Linearised& Shooting::linearised(const NodeStates& y, double load_factor) const {
+  const auto same = [](const State& a, const State& b) { return a.head<core_size>() == b.head<core_size>(); };
+  if (linearised_.load_factor == load_factor && std::ranges::equal(y, linearised_.y, same)) return linearised_;
+  const std::size_t n = mesh_.size();
+  work_ += static_cast<double>(n);
+  linearised_.y = y;
+  linearised_.load_factor = load_factor;
+  linearised_.ends.resize(n);
+  linearised_.sensitivities.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    linearised_.ends[i] = runge_kutta_step(equations(i, load_factor), start_state(y, load_factor, i), mesh_[i].length,
+                                           linearised_.sensitivities[i]);
+  }
+  return linearised_;
+}
+
 // Matrix and residual, unknowns and equations multiplied by `weight`. The residual goes to the system's vector.
 void Shooting::assemble(BandSystem& band, std::span<const int> components, const NodeStates& y, double load_factor,
                         const Core& weight, std::vector<double>* volume_changes) const {
   const long n = static_cast<long>(mesh_.size()), m = static_cast<long>(components.size());
+  const Linearised& linear = linearised(y, load_factor);
   band.set_zero();
   double* r = band.vector();
   long row = 0;
@@ -109,8 +126,8 @@ void Shooting::assemble(BandSystem& band, std::span<const int> components, const
   }
   CoreMatrix sensitivity;
   for (long i = 0; i < n; ++i) {
-    const State start = start_state(y, load_factor, i);
-    const State end = runge_kutta_step(equations(i, load_factor), start, mesh_[i].length, sensitivity);
+    const State& end = linear.ends[i];
+    sensitivity = linear.sensitivities[i];
     if (volume_changes != nullptr) (*volume_changes)[i] = std::abs(std::abs(sensitivity.determinant()) - 1);
     if (i > 0 && mesh_[i - 1].ends_span) {
       sensitivity *= equations(i - 1, load_factor).beyond_point_loads_jacobian(y[i]);
@@ -269,6 +286,7 @@ void Shooting::split(NodeStates& y, double load_factor, const std::vector<int>& 
   y = std::move(states);
   band_.reset();
   volume_changes_.clear();
+  linearised_ = {};
 }
 
 }  // namespace exact_reference

@@ -77,6 +77,19 @@ class Shooting {
   // though a straight taut rod or a rod with next to no torsional stiffness shows nothing of it in its shape.
   const std::vector<double>& volume_changes() const { return volume_changes_; }
 
+  // Each interval's step from these states and its derivatives by them. The last ones are kept: Newton's equations, the
+  // determinant, the stability and the tangent at one state share them.
+  struct Linearised {
+    NodeStates y;
+    double load_factor = 0;
+    NodeStates ends;
+    std::vector<CoreMatrix> sensitivities;
+  };
+  const Linearised& linearised(const NodeStates& y, double load_factor) const;
+
+  // Intervals linearised so far: what costs.
+  double work() const { return work_; }
+
  private:
   Core weights(const NodeStates& y) const;  // 1 for q, 1/(1 + largest) for N and M
   void assemble(BandSystem& band, std::span<const int> components, const NodeStates& y, double load_factor,
@@ -90,6 +103,8 @@ class Shooting {
   Mesh mesh_;
   std::unique_ptr<BandSystem> band_;
   std::vector<double> volume_changes_;
+  mutable Linearised linearised_;
+  mutable double work_ = 0;
 };
 
 }  // namespace exact_reference

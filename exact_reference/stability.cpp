@@ -22,9 +22,7 @@ struct IntervalForm {
 
 // From (b, M_b) = [A B; C D] (a, M_a): M_a = B^-1 (b - A a), and the form's gradient is (-M_a, M_b). The diagonal
 // blocks have the skew parts -+ [M]x/2 that come of varying M in the base frame; they cancel where intervals meet.
-IntervalForm interval_form(const RodEquations& rod, const State& start, double length) {
-  CoreMatrix S;
-  const State end = runge_kutta_step(rod, start, length, S);
+IntervalForm interval_form(const State& start, const State& end, const CoreMatrix& S) {
   const Eigen::Matrix<double, 4, 3> from = quaternion_tangent(start.head<4>());
   const Eigen::Matrix<double, 3, 4> to = 4 * quaternion_tangent(end.head<4>()).transpose();
   const Matrix3d A = to * S.block<4, 4>(0, 0) * from;
@@ -40,11 +38,11 @@ std::optional<int> falling_directions(const Shooting& shooting, const NodeStates
   const double intervals = static_cast<double>(shooting.mesh().size());
   const std::vector<double>& errors = shooting.volume_changes();
   const double unresolved = std::accumulate(errors.begin(), errors.end(), 1e-11);
+  const Shooting::Linearised& linear = shooting.linearised(y, load);
   int count = 0;
   Matrix3d beyond = Matrix3d::Zero();  // form of everything distal, as a function of the rotation here
   for (std::size_t i = shooting.mesh().size(); i-- > 0;) {
-    const IntervalForm form =
-        interval_form(shooting.equations(i, load), shooting.start_state(y, load, i), shooting.mesh()[i].length);
+    const IntervalForm form = interval_form(shooting.start_state(y, load, i), linear.ends[i], linear.sensitivities[i]);
     if (shooting.mesh()[i].ends_span) beyond += shooting.equations(i, load).arms_second_variation(y[i + 1]);
     const Matrix3d pivot = form.end_end + beyond;
     // Measured by the interval's own form, so that stiff and soft axes count alike; signs are the same (Sylvester).

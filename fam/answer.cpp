@@ -13,46 +13,57 @@
 namespace fam {
 namespace {
 
+template <int D>
+Stability stability_of(const BasicBoundaryValue<D>& solver) {
+  return solver.stability();
+}
+template <int D>
+Stability stability_of(const BasicMarch<D>&) {
+  return {};
+}
+
 using scene::Equilibrium;
 using scene::Span;
 using scene::Status;
 
 // The sign of the energy's second variation, from the run and finer ones until two agree.
 template <int D>
-std::optional<bool> stable(const BasicBoundaryValue<D>& solver, const Task& task, const Run& run) {
+std::optional<bool> judged(const BasicBoundaryValue<D>& solver, const Problem& problem, const Run& run,
+                           std::array<Run*, 2> spare, int arcs_at_most) {
   if (solver.one_equilibrium()) return true;
   Stability coarse = solver.stability();
   const Run* last = &run;
-  std::optional<Run> fine;
   for (int doublings = 0; doublings < most_stability_doublings; ++doublings) {
-    Run next(task, times(last->arcs, 2), last);
-    if (next.status != Status::converged) return std::nullopt;
-    const Stability finer = std::get<BasicBoundaryValue<D>>(next.solver).stability();
+    Run& next = *spare[static_cast<std::size_t>(doublings % 2)];
+    if (last->arc_count() > arcs_at_most / 2) return std::nullopt;
+    next.solve(problem, last->arcs, 2, last);
+    if (!next.converged()) return std::nullopt;
+    const Stability finer = next.engine.visit([](const auto& s) { return stability_of(s); });
     if (agree(coarse, finer)) return finer.conjugate_points == 0;
     coarse = finer;
-    fine.emplace(std::move(next));
-    last = &*fine;
+    last = &next;
   }
   return std::nullopt;
 }
-
-// What the boundary value solver did, and whether its equilibrium is stable.
+// No loads, or tendons alone: the energy is convex in the strains, and no load does work.
 template <int D>
-void report(const BasicBoundaryValue<D>& solver, const Task& task, const Run& run, Equilibrium& result) {
+std::optional<bool> judged(const BasicMarch<D>&, const Problem&, const Run&, std::array<Run*, 2>, int) {
+  return true;
+}
+
+// What the boundary value solver did.
+template <int D>
+void report(const BasicBoundaryValue<D>& solver, Equilibrium& result) {
   result.model.emplace_back("segments", solver.segment_count());
   result.model.emplace_back("load_steps", solver.load_steps());
   result.model.emplace_back("newton_iterations", solver.newton_steps());
-  if (scene::is_conservative(task.spans)) result.stable = stable(solver, task, run);
 }
-// No loads, or tendons alone: the energy is convex in the strains, and no load does work.
 template <int D>
-void report(const BasicMarch<D>&, const Task& task, const Run&, Equilibrium& result) {
-  if (scene::is_conservative(task.spans)) result.stable = true;
-}
+void report(const BasicMarch<D>&, Equilibrium&) {}
 
 // Turns each section about its tangent by what GJ adds to the rod that was solved: the moment about the tangent is
 // constant along a span.
-void twist_sections(Equilibrium& result, std::span<const Span> spans, const RoundRod& rod) {
+void twist_sections(Equilibrium& result, std::span<const Span> spans) {
   double twist_rad = 0;
   std::size_t i = 0;
   for (std::size_t k = 1; k < result.stations.size(); ++k) {
@@ -60,7 +71,7 @@ void twist_sections(Equilibrium& result, std::span<const Span> spans, const Roun
     const double last_mm = result.stations[k - 1].s_mm;
     if (last_mm >= spans[i].end_mm) ++i;
     const double moment_Nmm = station.moment_B_Nmm.dot(station.X_BS.rotation_BS.col(0));
-    twist_rad += rod.twist_per_Nmm2[i] * moment_Nmm * (station.s_mm - last_mm);
+    twist_rad += twist_per_Nmm2(spans[i]) * moment_Nmm * (station.s_mm - last_mm);
     station.X_BS.rotation_BS *= Eigen::AngleAxisd(twist_rad, Vector3d::UnitX()).toRotationMatrix();
   }
 }
@@ -89,33 +100,42 @@ Equilibrium refusal(Status status, const std::string& message) {
 
 }  // namespace
 
-Equilibrium success(const Task& task, const Run& run, double error_mm, const std::string& reason) {
-  const Choice& choice = task.choice;
+std::optional<bool> is_stable(const Problem& problem, const Run& run, Run& spare, Run& another_spare,
+                              int arcs_at_most) {
+  if (!scene::is_conservative(problem.spans())) return std::nullopt;
+  return run.engine.visit([&](const auto& solver) {
+    return judged(solver, problem, run, {&spare, &another_spare}, arcs_at_most);
+  });
+}
+
+Equilibrium success(const Problem& problem, const Run& run, double error_mm, std::optional<bool> stable,
+                    const std::string& how) {
+  const Choice& choice = problem.choice();
+  const std::span<const Span> spans = problem.scene_spans();
   Equilibrium result;
   result.status = Status::converged;
   result.error_estimate_mm = error_mm;
+  result.stable = stable;
   result.model = {{"law", std::string(name(choice.law))},
                   {"arcs", run.arc_count()},
-                  {"planar", scene::plane_direction(task.scene_spans).has_value()},
-                  {"torsion", std::visit([](const auto& s) { return has_torsion(s.solved()); }, run.solver)},
+                  {"planar", scene::plane_direction(spans).has_value()},
+                  {"torsion", run.engine.visit([](const auto& s) { return has_torsion(s.solved()); })},
                   {"shear", choice.rod.model == RodModel::reissner},
                   {"solver", std::string(choice.march ? "march" : "boundary value")},
                   {"kernel", std::string(choice.plane ? "planar" : "spatial")},
-                  {"reason", choice.reason + "; " + reason}};
-  std::visit(
-      [&](const auto& solver) {
-        set_shape(result, task.scene, task.spans, solver.solved(), choice.rotation_BP());
-        if (choice.round && result.converged()) twist_sections(result, task.scene_spans, *choice.round);
-        if (result.converged()) report(solver, task, run, result);
-      },
-      run.solver);
-  result.tip_angle_rad =
-      result.converged() ? scene::tip_angle_rad(result.stations, scene::plane_normal(task.scene_spans)) : 0;
+                  {"reason", reason(choice) + "; " + how}};
+  run.engine.visit([&](const auto& solver) {
+    set_shape(result, problem.scene(), problem.spans(), solver.solved(), choice.rotation_BP);
+    if (choice.round && result.converged()) twist_sections(result, spans);
+    if (result.converged()) report(solver, result);
+  });
+  if (!result.converged()) result.stable.reset();
+  result.tip_angle_rad = result.converged() ? scene::tip_angle_rad(result.stations, scene::plane_normal(spans)) : 0;
   return result;
 }
 
 Equilibrium failure(const Run& run) {
-  return refusal(run.status, failure_message(run.solver, run.status));
+  return refusal(run.status, run.engine.failure_message(run.status));
 }
 
 Equilibrium too_long_for_series(const ArcExtent& extent) {
@@ -126,9 +146,9 @@ Equilibrium too_long_for_series(const ArcExtent& extent) {
           " rad (largest: " + rounded(longest_swing_rad) + "); take more arcs, or the law fourth_order");
 }
 
-Equilibrium tolerance_not_met(const Task& task, const Run& run, double error_mm) {
+Equilibrium tolerance_not_met(const Problem& problem, const Run& run, double error_mm) {
   return refusal(Status::tolerance_not_met, "estimated error " + rounded(error_mm) + " mm exceeds the tolerance " +
-                                                rounded(task.tolerance_mm) + " mm with " +
+                                                rounded(problem.tolerance_mm()) + " mm with " +
                                                 std::to_string(run.arc_count()) + " arcs");
 }
 

@@ -3,17 +3,21 @@
 
 #include "fam/tolerance.h"
 
+#include <limits>
 #include <string>
 
 namespace fam {
 
 // Stability is judged with twice the arcs until two judgements agree.
 constexpr int most_stability_doublings = 6;
+// Empty: the loads have no energy, or not decided with at most `arcs_at_most`.
+std::optional<bool> is_stable(const Problem& problem, const Run& run, Run& spare, Run& another_spare,
+                              int arcs_at_most = std::numeric_limits<int>::max());
 
-scene::Equilibrium success(const Task& task, const Run& run, double error_mm, const std::string& reason);
-
+scene::Equilibrium success(const Problem& problem, const Run& run, double error_mm, std::optional<bool> stable,
+                           const std::string& how);
 scene::Equilibrium failure(const Run& run);
 scene::Equilibrium too_long_for_series(const ArcExtent& extent);
-scene::Equilibrium tolerance_not_met(const Task& task, const Run& run, double error_mm);
+scene::Equilibrium tolerance_not_met(const Problem& problem, const Run& run, double error_mm);
 
 }  // namespace fam

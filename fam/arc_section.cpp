@@ -4,45 +4,69 @@
 
 namespace fam {
 
-template <int D>
-BasicArcConstants<D> arc_constants(const scene::Span& span, int arcs, RodModel model, double load_factor) {
-  const scene::Stiffness& stiffness = span.stiffness;
-  const double h = span.length_mm() / arcs;
-  const Vector3d bending_and_torsion(stiffness.torsion_Nmm2, stiffness.bending_Nmm2[0], stiffness.bending_Nmm2[1]);
+namespace {
 
-  BasicArcConstants<D> arc;
+double tension_N(const scene::Span& span, const Vector3d& arm_S_mm) {
+  for (const scene::SectionTendon& tendon : span.tendons) {
+    if (tendon.arm_S_mm == arm_S_mm) return tendon.tension_N;
+  }
+  return 0;
+}
+
+template <int D>
+void set_tendons(std::vector<BasicTendon<D>>& tendons, const SpanOnWay& span) {
+  tendons.clear();
+  const auto add = [&](const Vector3d& arm_S_mm, double from_N, double to_N) {
+    const double tension = span.between(from_N, to_N);
+    if (tension > 0) tendons.push_back({linear_part<D>(arm_S_mm), tension});
+  };
+  for (const scene::SectionTendon& tendon : span.to.tendons) {
+    add(tendon.arm_S_mm, tension_N(span.from, tendon.arm_S_mm), tendon.tension_N);
+  }
+  if (span.share == 1) return;
+  for (const scene::SectionTendon& tendon : span.from.tendons) {
+    if (tension_N(span.to, tendon.arm_S_mm) == 0) add(tendon.arm_S_mm, tendon.tension_N, 0);
+  }
+}
+
+}  // namespace
+
+template <int D>
+void set_constants(BasicArcConstants<D>& arc, std::vector<BasicTendon<D>>& tendons, const SpanOnWay& span, int arcs,
+                   RodModel model) {
+  const scene::Stiffness& stiffness = span.to.stiffness;
+  const double h = span.to.length_mm() / arcs;
+  const Vector3d bending_and_torsion(stiffness.torsion_Nmm2, stiffness.bending_Nmm2[0], stiffness.bending_Nmm2[1]);
   arc.length_mm = h;
   arc.angular_compliance = h * angular_part<D>(bending_and_torsion.cwiseInverse());
-  arc.rest_rotation = h * angular_part<D>(span.rest_curvature_per_mm);
-  arc.rest_translation_mm[0] = h;
+  arc.rest_translation_mm = h * Vector<double, D>::Unit(0);
+  Vector3d compliance = Vector3d::Zero();
   if (model == RodModel::reissner) {
-    Vector3d compliance = Vector3d::Zero();
     if (stiffness.axial_N) compliance[0] = h / *stiffness.axial_N;
     if (stiffness.shear_N) compliance.tail<2>() = h * stiffness.shear_N->cwiseInverse();
-    arc.linear_compliance = linear_part<D>(compliance);
   }
-  set_tendons(arc, span, model, load_factor);
-  return arc;
+  arc.linear_compliance = linear_part<D>(compliance);
+  set_share(arc, tendons, span, model);
 }
 
 template <int D>
-void set_tendons(BasicArcConstants<D>& arc, const scene::Span& span, RodModel model, double load_factor) {
+void set_share(BasicArcConstants<D>& arc, std::vector<BasicTendon<D>>& tendons, const SpanOnWay& span, RodModel model) {
   arc.straight_tendons = D == 2 && model == RodModel::kirchhoff;
-  if (arc.straight_tendons) {
-    arc.rest_rotation =
-        arc.length_mm * angular_part<D>(span.rest_curvature_per_mm) +
-        load_factor * arc.angular_compliance.cwiseProduct(angular_part<D>(straight_tendons(span).moment_Nmm));
-  }
-  arc.tendons.clear();
-  if (load_factor == 0) return;
-  for (const scene::SectionTendon& tendon : span.tendons) {
-    arc.tendons.push_back({linear_part<D>(tendon.arm_S_mm), load_factor * tendon.tension_N});
+  arc.rest_rotation =
+      arc.length_mm * angular_part<D>(span.between(span.from.rest_curvature_per_mm, span.to.rest_curvature_per_mm));
+  set_tendons(tendons, span);
+  arc.tendons = tendons;
+  if (arc.straight_tendons && !(span.from.tendons.empty() && span.to.tendons.empty())) {
+    const auto turn = [&](const scene::Span& loaded) -> Angular<double, D> {
+      return arc.angular_compliance.cwiseProduct(angular_part<D>(straight_tendons(loaded).moment_Nmm));
+    };
+    arc.rest_rotation += span.between(turn(span.from), turn(span.to));
   }
 }
 
-template BasicArcConstants<2> arc_constants(const scene::Span&, int, RodModel, double);
-template BasicArcConstants<3> arc_constants(const scene::Span&, int, RodModel, double);
-template void set_tendons(BasicArcConstants<2>&, const scene::Span&, RodModel, double);
-template void set_tendons(BasicArcConstants<3>&, const scene::Span&, RodModel, double);
+template void set_constants(BasicArcConstants<2>&, std::vector<BasicTendon<2>>&, const SpanOnWay&, int, RodModel);
+template void set_constants(BasicArcConstants<3>&, std::vector<BasicTendon<3>>&, const SpanOnWay&, int, RodModel);
+template void set_share(BasicArcConstants<2>&, std::vector<BasicTendon<2>>&, const SpanOnWay&, RodModel);
+template void set_share(BasicArcConstants<3>&, std::vector<BasicTendon<3>>&, const SpanOnWay&, RodModel);
 
 }  // namespace fam

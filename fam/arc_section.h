@@ -6,6 +6,7 @@
 #include "scene/rod_model.h"
 #include "scene/span.h"
 
+#include <span>
 #include <vector>
 
 namespace fam {
@@ -19,7 +20,7 @@ struct BasicArcConstants {
   Angular<double, D> rest_rotation = Angular<double, D>::Zero();      // h (u0 + moment of straight tendons / stiffness)
   Vector<double, D> linear_compliance = Vector<double, D>::Zero();    // h / (EA, kGA_y, kGA_z); 0: does not give way
   Vector<double, D> rest_translation_mm = Vector<double, D>::Zero();  // h e_x
-  std::vector<BasicTendon<D>> tendons;
+  std::span<const BasicTendon<D>> tendons;                            // of the span that the arc lies in (SpanArcs)
   bool straight_tendons = false;  // along e_x whatever the strain: their moment is in rest_rotation
 
   bool is_elastic() const { return tendons.empty() || straight_tendons; }
@@ -38,12 +39,26 @@ Angular<double, D> angular_part(const Vector3d& w) {
 
 using scene::RodModel;
 
-// Constants of the arcs of a span that is cut into `arcs`. set_tendons: their tension times load_factor, without
-// allocation after the first time.
-template <int D = 3>
-BasicArcConstants<D> arc_constants(const scene::Span& span, int arcs, RodModel model, double load_factor = 1);
+// A span's loads and rest curvature on the straight line from those that it had to those that it gets; all else of the
+// two is the same. share: 0 to 1.
+struct SpanOnWay {
+  const scene::Span& from;
+  const scene::Span& to;
+  double share = 1;
+
+  template <class V>
+  V between(const V& a, const V& b) const {
+    return share == 1 ? b : V(a + share * (b - a));
+  }
+};
+
+// Constants of the arcs of a span that is cut into `arcs`, whose tendons stand in a list of the caller's.
 template <int D>
-void set_tendons(BasicArcConstants<D>& arc, const scene::Span& span, RodModel model, double load_factor);
+void set_constants(BasicArcConstants<D>& arc, std::vector<BasicTendon<D>>& tendons, const SpanOnWay& span, int arcs,
+                   RodModel model);
+// Of those, what depends on the share.
+template <int D>
+void set_share(BasicArcConstants<D>& arc, std::vector<BasicTendon<D>>& tendons, const SpanOnWay& span, RodModel model);
 
 // What a law asks of a section: the strain times h under a wrench, and the coefficients of its series along an arc.
 // This one is elastic, without tendons (theirs: fam/tendon.h); a Kirchhoff rod keeps the rest translation.

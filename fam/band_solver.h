@@ -16,13 +16,17 @@ class BandSystem {
   void resize(int size) {
     size_ = size;
     rows_.assign(static_cast<std::size_t>(size), Row::Zero());
-    right_.resize(size);
+    right_.assign(static_cast<std::size_t>(size), 0);
+  }
+  void reserve(std::size_t size) {
+    rows_.reserve(size);
+    right_.reserve(size);
   }
   int size() const { return size_; }
   void set_zero() { std::fill(rows_.begin(), rows_.end(), Row::Zero()); }
 
   double& operator()(int row, int column) { return rows_[static_cast<std::size_t>(row)][column - row + below]; }
-  Eigen::VectorXd& right() { return right_; }
+  Eigen::Map<Eigen::VectorXd> right() { return {right_.data(), size_}; }
 
   // After solve(): the determinant's sign, and the logarithm of its size.
   bool determinant_is_negative() const { return negative_; }
@@ -30,6 +34,7 @@ class BandSystem {
 
   // Replaces the right-hand side by the solution; the matrix is used up. False: a pivot is 0 or not finite.
   bool solve() {
+    double* const right = right_.data();
     negative_ = false;
     log_determinant_ = 0;
     for (int k = 0; k < size_; ++k) {
@@ -42,7 +47,7 @@ class BandSystem {
       double* top = &(*this)(k, k);
       if (pivot != k) {
         std::swap_ranges(top, top + width, &(*this)(pivot, k));
-        std::swap(right_[k], right_[pivot]);
+        std::swap(right[k], right[pivot]);
         negative_ = !negative_;
       }
       if (!(std::abs(*top) > 0) || !std::isfinite(*top)) return false;
@@ -53,13 +58,13 @@ class BandSystem {
         if (*row == 0) continue;
         const double factor = *row / *top;
         for (int j = 1; j < width; ++j) row[j] -= factor * top[j];
-        right_[i] -= factor * right_[k];
+        right[i] -= factor * right[k];
       }
     }
     for (int k = size_ - 1; k >= 0; --k) {
       const int last = std::min(k + below + above, size_ - 1);
-      for (int j = k + 1; j <= last; ++j) right_[k] -= (*this)(k, j) * right_[j];
-      right_[k] /= (*this)(k, k);
+      for (int j = k + 1; j <= last; ++j) right[k] -= (*this)(k, j) * right[j];
+      right[k] /= (*this)(k, k);
     }
     return true;
   }
@@ -70,7 +75,7 @@ class BandSystem {
   bool negative_ = false;
   double log_determinant_ = 0;
   std::vector<Row> rows_;
-  Eigen::VectorXd right_;
+  std::vector<double> right_;
 };
 
 }  // namespace fam

@@ -22,8 +22,9 @@ struct BatchColumn {
 
 // A row for each rod. Of one that did not converge the numbers are NaN.
 struct BatchResult {
-  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> position_mm;    // of the tip, base frame
-  Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> rotation_wxyz;  // unit quaternion of R_BS at the tip, w >= 0
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> position_mm;  // of the tip, base frame
+  Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>
+      rotation_wxyz;  // unit quaternion of R_BS at the tip, w >= 0
   std::vector<scene::Status> status;
   Eigen::VectorXd error_estimate_mm;  // 0 where Options::estimate_error is false
 };

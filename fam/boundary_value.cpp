@@ -3,13 +3,24 @@
 namespace fam {
 
 template <int D>
-BasicBoundaryValue<D>::BasicBoundaryValue(std::span<const scene::Span> spans, std::span<const int> arcs_per_span,
-                                          Law law, RodModel model, double newton_tolerance)
-    : shooting_(LoadedRod<D>(spans, arcs_per_span, law, model), newton_tolerance), growth_(shooting_) {
+void BasicBoundaryValue<D>::set(const LoadWay& way, std::span<const int> arcs_per_span, Law law, RodModel model,
+                                double newton_tolerance) {
+  shooting_.set(way, arcs_per_span, law, model, newton_tolerance);
+  growth_.set(shooting_);
   arcs_.resize(static_cast<std::size_t>(shooting_.rod().arc_count()));
   motions_.resize(arcs_.size());
   poses_.resize(arcs_.size() + 1);
   distal_wrenches_S_.resize(arcs_.size());
+}
+
+template <int D>
+void BasicBoundaryValue<D>::reserve(const Room& room) {
+  shooting_.reserve(room);
+  growth_.reserve(room);
+  arcs_.reserve(room.arcs);
+  motions_.reserve(room.arcs);
+  poses_.reserve(room.arcs + 1);
+  distal_wrenches_S_.reserve(room.arcs);
 }
 
 template <int D>
@@ -53,12 +64,6 @@ scene::Status BasicBoundaryValue<D>::place_arcs() {
   if (poses_.back().position_B_mm.allFinite() && state.wrench.moment_Nmm.allFinite()) return scene::Status::converged;
   why_ = "a pose or wrench is not finite";
   return scene::Status::not_finite;
-}
-
-template <int D>
-Stability BasicBoundaryValue<D>::stability() const {
-  StabilityJudge<D> judge(shooting_.rod(), shooting_.nodes().size());
-  return judge(shooting_.rod(), shooting_.segments(), shooting_.nodes());
 }
 
 template class BasicBoundaryValue<2>;

@@ -12,13 +12,24 @@ namespace fam {
 template <int D>
 class BasicBoundaryValue {
  public:
-  // Any coupled law; every kind of load. Throws nothing but std::bad_alloc.
-  BasicBoundaryValue(std::span<const scene::Span> spans, std::span<const int> arcs_per_span, Law law, RodModel model,
-                     double newton_tolerance = tightest_newton_tolerance);
+  void reserve(const Room& room);
+  // Any coupled law; every kind of load. The spans must stay where they are. Takes memory where more arcs, segments or
+  // spans are asked for than ever before; nothing else here does.
+  void set(const LoadWay& way, std::span<const int> arcs_per_span, Law law, RodModel model,
+           double newton_tolerance = tightest_newton_tolerance);
 
-  // From no load to the full load. converged, load_step_too_small, work_limit, tendon_collapsed, not_converged or
-  // not_finite; message() says why. Does not allocate.
+  // From no load, which the way must start with, to the full load. converged, load_step_too_small, work_limit,
+  // tendon_collapsed, not_converged or not_finite; message() says why.
   scene::Status run();
+  // Along the way from the shape that the rod had (Shooting::start_at); also limit_point.
+  template <class StateAt>
+  scene::Status run_on(StateAt&& state_at) {
+    why_ = nullptr;
+    shooting_.forget_work();
+    shooting_.start_at(state_at);
+    const scene::Status status = growth_.run_on(shooting_);
+    return status == scene::Status::converged ? place_arcs() : status;
+  }
   // The full load, starting from a solution of the same spans; the arcs of both must be multiples of those which it
   // was first found with.
   scene::Status run_from(const BasicBoundaryValue& fewer_arcs);
@@ -39,7 +50,7 @@ class BasicBoundaryValue {
 
   // Of the equilibrium, a minimum of the energy if it has no conjugate point. Only for fixed forces, gravity and
   // tendons (the caller's to check).
-  Stability stability() const;
+  Stability stability() const { return growth_.judge(shooting_); }
   // Whether the loads are too small for a second equilibrium; then the one found is stable.
   bool one_equilibrium() const { return shooting_.one_equilibrium(); }
 

@@ -12,15 +12,6 @@ using scene::Span;
 using scene::Status;
 
 template <int D>
-Engine solver_in(std::span<const Span> spans, std::span<const int> arcs, const Choice& choice, const Options& options) {
-  if (choice.march) return BasicMarch<D>(spans, arcs, choice.law, choice.rod.model, options.twist_order);
-  // Newton ends a thousandth of the tolerance away, or at round-off where none is given.
-  const double newton_tolerance =
-      std::clamp(1e-3 * options.tolerance_mm / spans.back().end_mm, tightest_newton_tolerance, 1e-6);
-  return BasicBoundaryValue<D>(spans, arcs, choice.law, choice.rod.model, newton_tolerance);
-}
-
-template <int D>
 std::string message_of(const BasicMarch<D>& march, Status status) {
   const std::string arcs = std::to_string(march.arc_count());
   if (status == Status::arc_not_converged) {
@@ -36,13 +27,14 @@ std::string message_of(const BasicBoundaryValue<D>& problem, Status) {
   return problem.message() + ", with " + std::to_string(problem.arc_count()) + " arcs";
 }
 
-template <int D>
-double load_factor_of(const BasicMarch<D>&) {
-  return 0;
+// What boundary value problems alone have; 0 of marches.
+template <int D, class Get>
+auto of_boundary_value(const BasicBoundaryValue<D>& problem, Get&& get) {
+  return get(problem);
 }
-template <int D>
-double load_factor_of(const BasicBoundaryValue<D>& problem) {
-  return problem.load_factor();
+template <int D, class Get>
+auto of_boundary_value(const BasicMarch<D>&, Get&& get) -> decltype(get(BasicBoundaryValue<D>())) {
+  return 0;
 }
 
 template <int D>
@@ -52,36 +44,68 @@ double largest_swing_of(const SolvedRod<D>& rod, std::span<const Span> spans, st
 
 }  // namespace
 
-Engine make_engine(std::span<const Span> spans, std::span<const int> arcs_per_span, const Choice& choice,
-                   const Options& options) {
-  if (choice.plane) return solver_in<2>(choice.plane->spans, arcs_per_span, choice, options);
-  return solver_in<3>(choice.solved_spans(spans), arcs_per_span, choice, options);
+void Engine::reserve(const Room& room, Law law) {
+  march_.reserve(room);
+  if (!facts_of(law).coupled) return;
+  planar_march_.reserve(room);
+  boundary_value_.reserve(room);
+  planar_boundary_value_.reserve(room);
 }
 
-int arc_count(const Engine& solver) {
-  return std::visit([](const auto& s) { return s.arc_count(); }, solver);
+void Engine::set(const Problem& problem, std::span<const int> arcs_per_span) {
+  const Choice& choice = problem.choice();
+  is_march_ = choice.march;
+  is_planar_ = choice.plane.has_value();
+  rotation_BP_ = choice.rotation_BP;
+  const LoadWay& way = problem.way();
+  const RodModel model = choice.rod.model;
+  if (is_march_) {
+    const TwistOrder order = problem.options().twist_order;
+    if (is_planar_) planar_march_.set(way.to, arcs_per_span, choice.law, model, order);
+    else march_.set(way.to, arcs_per_span, choice.law, model, order);
+    return;
+  }
+  // Newton ends a thousandth of the tolerance away, or at round-off where none is given.
+  const double tolerance =
+      std::clamp(1e-3 * problem.options().tolerance_mm / problem.length_mm(), tightest_newton_tolerance, 1e-6);
+  if (is_planar_) planar_boundary_value_.set(way, arcs_per_span, choice.law, model, tolerance);
+  else boundary_value_.set(way, arcs_per_span, choice.law, model, tolerance);
 }
 
-bool is_march(const Engine& solver) {
-  return std::holds_alternative<March>(solver) || std::holds_alternative<BasicMarch<2>>(solver);
+Status Engine::run() {
+  return visit_to_change([](auto& solver) { return solver.run(); });
 }
 
-double load_factor(const Engine& solver) {
-  return std::visit([](const auto& s) { return load_factor_of(s); }, solver);
+Status Engine::run_from(const Engine& fewer_arcs) {
+  if (is_march_) return run();
+  return is_planar_ ? planar_boundary_value_.run_from(fewer_arcs.planar_boundary_value_)
+                    : boundary_value_.run_from(fewer_arcs.boundary_value_);
 }
 
-std::string failure_message(const Engine& solver, Status status) {
-  return std::visit([&](const auto& s) { return message_of(s, status); }, solver);
+int Engine::arc_count() const {
+  return visit([](const auto& s) { return s.arc_count(); });
+}
+double Engine::load_factor() const {
+  return visit([](const auto& s) { return of_boundary_value(s, [](const auto& p) { return p.load_factor(); }); });
+}
+int Engine::load_steps() const {
+  return visit([](const auto& s) { return of_boundary_value(s, [](const auto& p) { return p.load_steps(); }); });
+}
+int Engine::newton_steps() const {
+  return visit([](const auto& s) { return of_boundary_value(s, [](const auto& p) { return p.newton_steps(); }); });
+}
+std::string Engine::failure_message(Status status) const {
+  return visit([&](const auto& s) { return message_of(s, status); });
 }
 
-ArcExtent extent_of_arcs(const Engine& solver, std::span<const Span> spans, std::span<const int> arcs_per_span) {
+ArcExtent extent_of_arcs(const Engine& engine, std::span<const Span> spans, std::span<const int> arcs_per_span) {
   return {largest_load_length(spans, arcs_per_span),
-          std::visit([&](const auto& s) { return largest_swing_of(s.solved(), spans, arcs_per_span); }, solver)};
+          engine.visit([&](const auto& s) { return largest_swing_of(s.solved(), spans, arcs_per_span); })};
 }
 
-Status verdict(const Engine& solver, Law law, const ArcExtent& extent) {
+Status verdict(const Engine& engine, Law law, const ArcExtent& extent) {
   if (facts_of(law).by_series && !extent.resolved()) return Status::arc_not_converged;
-  const bool collapsed = std::visit([](const auto& s) { return any_tendon_collapsed(s.solved()); }, solver);
+  const bool collapsed = engine.visit([](const auto& s) { return any_tendon_collapsed(s.solved()); });
   return collapsed ? Status::tendon_collapsed : Status::converged;
 }
 

@@ -1,27 +1,69 @@
-// The four solvers as one: a march or a boundary value problem, in space or in the plane.
+// The four solvers as one: a march or a boundary value problem, in space or in the plane, in memory that is kept from
+// one rod to the next.
 #pragma once
 
 #include "fam/boundary_value.h"
 #include "fam/march.h"
-#include "fam/model_choice.h"
+#include "fam/problem.h"
 
-#include <span>
 #include <string>
-#include <variant>
-#include <vector>
 
 namespace fam {
 
-using Engine = std::variant<March, BasicMarch<2>, BoundaryValue, BasicBoundaryValue<2>>;
+class Engine {
+ public:
+  // For every solver that loads of this rod may come to ask for; law: chosen.
+  void reserve(const Room& room, Law law);
+  // Takes memory where more arcs, segments or spans are asked for than ever before. The problem must stay as it is as
+  // long as the engine is asked anything.
+  void set(const Problem& problem, std::span<const int> arcs_per_span);
 
-// Of the spans of the scene, with all the memory that it needs.
-Engine make_engine(std::span<const scene::Span> spans, std::span<const int> arcs_per_span, const Choice& choice,
-                   const Options& options);
+  scene::Status run();
+  // From the solution of the same problem with fewer arcs; a march starts anew.
+  scene::Status run_from(const Engine& fewer_arcs);
+  // Along the problem's way from the shape that the rod had: state_at(arc), SectionState<3> at an arc's distal end in
+  // the base frame, without the point loads there.
+  template <class StateAt>
+  scene::Status run_on(StateAt&& state_at);
 
-int arc_count(const Engine& solver);
-bool is_march(const Engine& solver);
-double load_factor(const Engine& solver);  // that a boundary value problem has reached
-std::string failure_message(const Engine& solver, scene::Status status);
+  // visit(solver): BasicMarch<D> or BasicBoundaryValue<D>.
+  template <class Visit>
+  decltype(auto) visit(Visit&& visit) const {
+    if (is_march_) return is_planar_ ? visit(planar_march_) : visit(march_);
+    return is_planar_ ? visit(planar_boundary_value_) : visit(boundary_value_);
+  }
+  // visit(solver, the other's), which must be of the same kind.
+  template <class Visit>
+  decltype(auto) visit_with(const Engine& other, Visit&& visit) const {
+    if (is_march_) {
+      return is_planar_ ? visit(planar_march_, other.planar_march_) : visit(march_, other.march_);
+    }
+    return is_planar_ ? visit(planar_boundary_value_, other.planar_boundary_value_)
+                      : visit(boundary_value_, other.boundary_value_);
+  }
+
+  bool is_march() const { return is_march_; }
+  bool is_planar() const { return is_planar_; }
+  int arc_count() const;
+  double load_factor() const;  // that a boundary value problem has reached
+  int load_steps() const;
+  int newton_steps() const;
+  std::string failure_message(scene::Status status) const;
+
+ private:
+  template <class Visit>
+  decltype(auto) visit_to_change(Visit&& visit) {
+    if (is_march_) return is_planar_ ? visit(planar_march_) : visit(march_);
+    return is_planar_ ? visit(planar_boundary_value_) : visit(boundary_value_);
+  }
+
+  bool is_march_ = true, is_planar_ = false;
+  Matrix3d rotation_BP_ = Matrix3d::Identity();
+  BasicMarch<3> march_;
+  BasicMarch<2> planar_march_;
+  BasicBoundaryValue<3> boundary_value_;
+  BasicBoundaryValue<2> planar_boundary_value_;
+};
 
 // Whether the arcs resolve the load and the rod's turns. Longer ones do not see them, and two resolutions may agree by
 // chance: the error estimate is then at least L, and the series of an arc has no answer at all. Chosen, not measured.
@@ -31,11 +73,25 @@ struct ArcExtent {
   double load_length, swing_rad;
   bool resolved() const { return load_length <= longest_load_length && swing_rad <= longest_swing_rad; }
 };
-// Of the longest of solved arcs; spans as they were solved (Choice::solved_spans).
-ArcExtent extent_of_arcs(const Engine& solver, std::span<const scene::Span> spans, std::span<const int> arcs_per_span);
+// Of the longest of solved arcs; spans as they were solved (Problem::spans).
+ArcExtent extent_of_arcs(const Engine& engine, std::span<const scene::Span> spans, std::span<const int> arcs_per_span);
 
 // What a solve with a given number of arcs ends in, that has converged: arc_not_converged where the law's series do not
 // reach the arcs' ends, tendon_collapsed where a tendon's path has no length, else converged. Does not allocate.
-scene::Status verdict(const Engine& solver, Law law, const ArcExtent& extent);
+scene::Status verdict(const Engine& engine, Law law, const ArcExtent& extent);
+
+template <class StateAt>
+scene::Status Engine::run_on(StateAt&& state_at) {
+  if (is_march_) return run();
+  if (!is_planar_) return boundary_value_.run_on(state_at);
+  return planar_boundary_value_.run_on([&](int arc) {
+    const SectionState<3> state = state_at(arc);
+    SectionState<2> planar;
+    planar.rotation_SB = (rotation_BP_.transpose() * state.rotation_SB * rotation_BP_).topLeftCorner<2, 2>();
+    planar.wrench.force_N = (rotation_BP_.transpose() * state.wrench.force_N).head<2>();
+    planar.wrench.moment_Nmm = (rotation_BP_.transpose() * state.wrench.moment_Nmm).tail<1>();
+    return planar;
+  });
+}
 
 }  // namespace fam

@@ -15,6 +15,7 @@ constexpr double largest_surprise_rad = 0.05;  // chosen, not measured
 constexpr double smallest_load_step = 1e-12;   // over the load reached: a column pushed aside by 1e-12 EI/L^2 needs it
 constexpr double smallest_bifurcation_step = 1e-5;  // of the load; chosen, not measured
 constexpr double load_step_tolerance = 1e-6;        // of Newton on the way to the full load, where the last is tighter
+constexpr double limit_point_determinant = 1e-2;    // of that at the start of the way; chosen, not measured
 constexpr int most_passes = 100;                    // of the rod's arcs, within the work limit; chosen, not measured
 
 template <int D>
@@ -25,11 +26,16 @@ double turn_between(const SectionState<D>& a, const SectionState<D>& b) {
 }  // namespace
 
 template <int D>
-LoadGrowth<D>::LoadGrowth(const Shooting<D>& shooting)
-    : start_(shooting.nodes().size()), guess_(shooting.nodes().size()), previous_(shooting.nodes().size()) {
-  if (!shooting.one_equilibrium() && scene::is_conservative(shooting.rod().spans())) {
-    judge_.emplace(shooting.rod(), shooting.nodes().size());
-  }
+void LoadGrowth<D>::set(const Shooting<D>& shooting) {
+  for (Nodes* nodes : {&start_, &guess_, &previous_}) nodes->resize(shooting.nodes().size());
+  watches_stability_ = scene::is_conservative(shooting.rod().way().bounds);
+  if (watches_stability_) judge_.set(shooting.rod());
+}
+
+template <int D>
+void LoadGrowth<D>::reserve(const Room& room) {
+  for (Nodes* nodes : {&start_, &guess_, &previous_}) nodes->reserve(room.arcs);
+  judge_.reserve(room);
 }
 
 // Where the last two loads point: rotations along their relative turn, wrenches along their difference.
@@ -88,8 +94,7 @@ bool LoadGrowth<D>::stays_on_branch(Shooting<D>& shooting, double step) {
   const double size = (now.negative == last.negative ? 1 : -1) * std::exp(now.log_size - last.log_size);
   if (!(size > 0.8)) now = shooting.determinant(true);
   if (watches_determinant_ && branch_.has_left(now)) return false;
-  const bool falls =
-      watches_stability_ && (*judge_)(shooting.rod(), shooting.segments(), shooting.nodes()).conjugate_points > 0;
+  const bool falls = watches_stability_ && is_unstable(shooting);
   if (falls && !(may_fall_ && step <= smallest_bifurcation_step)) return false;
   watches_stability_ = watches_stability_ && !falls;
   branch_.keep(shooting.rod().load_factor(), now);
@@ -114,7 +119,7 @@ bool LoadGrowth<D>::gives_up(const Shooting<D>& shooting, double step) {
 
 template <int D>
 std::string LoadGrowth<D>::message() const {
-  if (end_.status == scene::Status::not_converged) return "Newton did not converge at no load";
+  if (end_.status == scene::Status::not_converged) return "Newton did not converge at the loads it starts from";
   std::ostringstream text;
   if (end_.newton_steps > 0) text << "work limit: " << end_.newton_steps << " Newton steps and only ";
   else text << "the load step fell below " << end_.smallest_step << " at ";
@@ -124,14 +129,14 @@ std::string LoadGrowth<D>::message() const {
 
 template <int D>
 void LoadGrowth<D>::start_watch(const Shooting<D>& shooting) {
-  const std::vector<scene::Span>& spans = shooting.rod().spans();
-  const scene::Symmetry symmetry = scene::symmetry_of(spans);
+  const LoadWay& way = shooting.rod().way();
+  const scene::Symmetry symmetry = scene::common_symmetry(scene::symmetry_of(way.from), scene::symmetry_of(way.to));
   watches_determinant_ = symmetry != scene::Symmetry::axis;
-  watches_stability_ = scene::is_conservative(spans);
+  watches_stability_ = scene::is_conservative(way.bounds) && !is_unstable(shooting);
   may_fall_ = symmetry != scene::Symmetry::none;
-  if (watches_stability_ && !judge_) judge_.emplace(shooting.rod(), shooting.nodes().size());
   branch_ = {};
   branch_.keep(0, shooting.determinant(false));
+  start_log_size_ = branch_.last().log_size;
 }
 
 template <int D>
@@ -139,19 +144,35 @@ scene::Status LoadGrowth<D>::run(Shooting<D>& shooting) {
   end_ = {};
   load_steps_ = 1;
   if (shooting.one_equilibrium() && shooting.solve_at_once()) return scene::Status::converged;
-  return grow(shooting);
+  load_steps_ = 0;
+  shooting.start_unloaded();
+  const LoadBounds& bounds = shooting.bounds();
+  return grow(shooting, 1 / std::max(1.0, bounds.load_length * bounds.load_length + bounds.turn_rad));
+}
+
+// A fold is where steps lead nowhere and the determinant has all but vanished.
+template <int D>
+scene::Status LoadGrowth<D>::run_on(Shooting<D>& shooting) {
+  end_ = {};
+  load_steps_ = 1;
+  start_ = shooting.nodes();
+  if (shooting.one_equilibrium() && shooting.solve_from_here()) return scene::Status::converged;
+  shooting.set_nodes(start_);
+  shooting.set_load(0);
+  load_steps_ = 0;
+  end_.status = grow(shooting, 1);
+  const bool fold = end_.status == scene::Status::load_step_too_small && watches_determinant_ &&
+                    branch_.last().log_size < start_log_size_ + std::log(limit_point_determinant);
+  return end_.status = fold ? scene::Status::limit_point : end_.status;
 }
 
 template <int D>
-scene::Status LoadGrowth<D>::grow(Shooting<D>& shooting) {
-  load_steps_ = 0;
+scene::Status LoadGrowth<D>::grow(Shooting<D>& shooting, double first_step) {
   load_factor_ = previous_factor_ = 0;
-  shooting.start_unloaded();
   if (!shooting.newton(shooting.newton_tolerance())) return end_.status = scene::Status::not_converged;
   start_watch(shooting);
-  const LoadBounds& bounds = shooting.bounds();
-  first_step_ = 1 / std::max(1.0, bounds.load_length * bounds.load_length + bounds.turn_rad);
-  double step = first_step_;
+  first_step_ = first_step;
+  double step = first_step;
   while (load_factor_ < 1) {
     if (watches_determinant_) step = std::min(step, branch_.longest_step(load_factor_));
     if (gives_up(shooting, step)) return end_.status;

@@ -32,24 +32,32 @@ constexpr long long most_arcs_marched = 600'000;
 template <int D>
 class LoadGrowth {
  public:
-  // Allocates all that growing the load takes.
-  explicit LoadGrowth(const Shooting<D>& shooting);
+  void reserve(const Room& room);
+  // For a rod whose loads are to grow; takes memory where more arcs, segments or spans are asked for than ever before.
+  void set(const Shooting<D>& shooting);
 
   // From no load to the full load. converged, load_step_too_small, not_converged, work_limit or tendon_collapsed.
   scene::Status run(Shooting<D>& shooting);
+  // From the shape that the nodes hold at the start of the way; also limit_point.
+  scene::Status run_on(Shooting<D>& shooting);
   // Why not converged.
   std::string message() const;
 
+  // Of the nodes at the present load; only for fixed forces, gravity and tendons.
+  Stability judge(const Shooting<D>& shooting) const {
+    return judge_(shooting.rod(), shooting.segments(), shooting.nodes());
+  }
   int load_steps() const { return load_steps_; }
   void take_over(const LoadGrowth& fewer_arcs) { load_steps_ = fewer_arcs.load_steps_; }
 
  private:
   using Nodes = std::vector<SectionState<D>>;
 
-  scene::Status grow(Shooting<D>& shooting);
+  scene::Status grow(Shooting<D>& shooting, double first_step);
   void start_watch(const Shooting<D>& shooting);
   void predict(const Shooting<D>& shooting, double factor);
   std::optional<double> try_step(Shooting<D>& shooting, double to);
+  bool is_unstable(const Shooting<D>& shooting) { return judge(shooting).conjugate_points > 0; }
   bool stays_on_branch(Shooting<D>& shooting, double step);
   bool gives_up(const Shooting<D>& shooting, double step);
 
@@ -57,10 +65,11 @@ class LoadGrowth {
   Nodes previous_;       // at the last load but one
   double load_factor_ = 0, previous_factor_ = 0, first_step_ = 1;
   scene::BranchWatch branch_;
+  double start_log_size_ = 0;  // of the determinant where the way starts
   bool watches_determinant_ = false;
   bool watches_stability_ = false;  // the loads have an energy, and the rod was stable so far
   bool may_fall_ = false;           // where its symmetry can hold it
-  std::optional<StabilityJudge<D>> judge_;
+  mutable StabilityJudge<D> judge_;
   int load_steps_ = 0;
   struct {
     scene::Status status = scene::Status::converged;

@@ -24,20 +24,46 @@ struct ArcRange {
   int first_arc, end_arc;
 };
 
+// The loads of a rod on the straight line from those that it had to those that it gets: spans with the same cuts.
+// `bounds` holds of each load the larger, for what loads can do on the way at most.
+struct LoadWay {
+  std::span<const scene::Span> from, to, bounds;
+
+  SpanOnWay span(std::size_t i, double share) const { return {from[i], to[i], share}; }
+};
+
+// Spans whose loads grow from none.
+class GrowingLoads {
+ public:
+  explicit GrowingLoads(std::span<const scene::Span> spans) : to_(spans.begin(), spans.end()), from_(to_) {
+    for (scene::Span& span : from_) span.unload();
+  }
+  LoadWay way() const { return {from_, to_, to_}; }
+
+ private:
+  std::vector<scene::Span> to_, from_;
+};
+
+// What memory is taken for beforehand.
+struct Room {
+  std::size_t arcs, spans, tendons;
+};
+
 // In space, D = 3, or for rods in the x-y plane, D = 2 (spans with nothing out of it).
 template <int D>
 class LoadedRod {
  public:
-  // Any coupled law; every kind of load.
-  LoadedRod(std::span<const scene::Span> spans, std::span<const int> arcs_per_span, Law law, RodModel model);
+  void reserve(const Room& room);
+  // Any coupled law; every kind of load. The spans must stay where they are.
+  void set(const LoadWay& way, std::span<const int> arcs_per_span, Law law, RodModel model);
 
-  // Does not allocate.
+  // The share of the way from the loads that the rod had to those that it gets.
   void set_load(double factor);
 
   double load_factor() const { return load_factor_; }
-  const std::vector<scene::Span>& spans() const { return spans_; }
-  const std::vector<SpanArcs<D>>& span_arcs() const { return span_arcs_; }
-  const std::vector<int>& arcs_per_span() const { return arcs_per_span_; }
+  const LoadWay& way() const { return way_; }
+  std::span<const SpanArcs<D>> span_arcs() const { return span_arcs_; }
+  std::span<const int> arcs_per_span() const { return arcs_per_span_; }
   int arc_count() const { return span_arcs_.back().end_arc; }
   Law law() const { return law_; }
   RodModel model() const { return model_; }
@@ -62,11 +88,11 @@ class LoadedRod {
   template <bool with_shear, class T, class After>
   void march_with(ArcRange arcs, SectionState<D, T>& state, After&& after_arc) const;
 
-  std::vector<scene::Span> spans_;
+  LoadWay way_;
   std::vector<int> arcs_per_span_;
-  Law law_;
-  RodModel model_;
-  std::vector<SpanArcs<D>> span_arcs_;
+  Law law_ = AutomaticLaw::facts.law;
+  RodModel model_ = RodModel::kirchhoff;
+  scene::Reused<SpanArcs<D>> span_arcs_;
   double load_factor_ = 1;
   mutable bool tendon_collapsed_ = false;
 };
@@ -84,8 +110,8 @@ template <int D>
 template <bool with_shear, class T, class After>
 void LoadedRod<D>::march_with(ArcRange arcs, SectionState<D, T>& state, After&& after_arc) const {
   int end_arc = arcs.end_arc;
-  auto span = std::upper_bound(span_arcs_.begin(), span_arcs_.end(), end_arc - 1,
-                               [](int arc, const SpanArcs<D>& s) { return arc < s.first_arc; });
+  const SpanArcs<D>* span = std::upper_bound(span_arcs_.begin(), span_arcs_.end(), end_arc - 1,
+                                             [](int arc, const SpanArcs<D>& s) { return arc < s.first_arc; });
   while (end_arc > arcs.first_arc) {
     --span;
     if (end_arc == span->end_arc) span->add_point_loads(state.rotation_SB, state.wrench);

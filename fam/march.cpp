@@ -20,20 +20,32 @@ struct ArcMotion {
 }  // namespace
 
 template <int D>
-BasicMarch<D>::BasicMarch(std::span<const scene::Span> spans, std::span<const int> arcs_per_span, Law law,
-                          RodModel model, TwistOrder twist_order)
-    : law_(law), model_(model), twist_order_(twist_order) {
+void BasicMarch<D>::set(std::span<const scene::Span> spans, std::span<const int> arcs_per_span, Law law, RodModel model,
+                        TwistOrder twist_order) {
+  law_ = law;
+  model_ = model;
+  twist_order_ = twist_order;
   assert(spans.size() == arcs_per_span.size() && chosen(law) == law && model != RodModel::automatic);
   assert(D == 3 || facts_of(law).coupled);
   int first_arc = 0;
-  spans_.reserve(spans.size());
+  spans_.resize(spans.size());
   for (std::size_t i = 0; i < spans.size(); ++i) {
-    spans_.emplace_back(spans[i], model, first_arc, arcs_per_span[i]);
+    spans_[i].set({spans[i], spans[i]}, model, first_arc, arcs_per_span[i]);
     first_arc += arcs_per_span[i];
   }
   arcs_.resize(static_cast<std::size_t>(first_arc));
   motions_.resize(arcs_.size());
   poses_.resize(arcs_.size() + 1);
+  distal_wrenches_S_.resize(arcs_.size());
+}
+
+template <int D>
+void BasicMarch<D>::reserve(const Room& room) {
+  spans_.reserve(room.spans, [&](SpanArcs<D>& span) { span.reserve(room.tendons); });
+  arcs_.reserve(room.arcs);
+  motions_.reserve(room.arcs);
+  poses_.reserve(room.arcs + 1);
+  distal_wrenches_S_.reserve(room.arcs);
 }
 
 // Tip to clamp: march_span(span, wrench) marches the arcs of a span and leaves the wrench at its proximal end.
@@ -41,9 +53,9 @@ template <int D>
 template <class MarchSpan>
 void BasicMarch<D>::march(MarchSpan&& march_span) {
   BasicWrench<double, D> wrench;
-  for (auto span = spans_.rbegin(); span != spans_.rend(); ++span) {
-    wrench = wrench + span->follower_load_S;
-    march_span(*span, wrench);
+  for (std::size_t i = spans_.size(); i-- > 0;) {
+    wrench = wrench + spans_[i].follower_load_S;
+    march_span(spans_[i], wrench);
   }
   base_wrench_ = wrench;
 }
@@ -53,7 +65,7 @@ template <class Wrench, class Span, class Step>
 void for_arcs(const Span& span, Wrench& wrench, std::vector<Wrench>& record, Step&& step) {
   for (int k = span.end_arc; k-- > span.first_arc;) {
     const auto arc = static_cast<std::size_t>(k);
-    if (!record.empty()) record[arc] = wrench;
+    record[arc] = wrench;
     step(arc, wrench);
   }
 }

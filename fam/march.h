@@ -3,7 +3,7 @@
 #pragma once
 
 #include "fam/arc_law.h"
-#include "fam/span_arcs.h"
+#include "fam/loaded_rod.h"
 
 #include "scene/equilibrium.h"
 #include "scene/span.h"
@@ -29,10 +29,12 @@ struct SolvedRod {
 template <int D>
 class BasicMarch {
  public:
-  // Allocates all it needs. arcs_per_span: at least one arc for each span. The spans must carry follower loads and
-  // tendons only; law and model must not be automatic. Published: Kirchhoff rods with EI_y = EI_z.
-  BasicMarch(std::span<const scene::Span> spans, std::span<const int> arcs_per_span, Law law, RodModel model,
-             TwistOrder twist_order = TwistOrder::bend_twist);
+  void reserve(const Room& room);
+  // Takes memory where more arcs or spans are asked for than ever before; nothing else here does. arcs_per_span: at
+  // least one arc for each span. The spans must carry follower loads and tendons only; law and model must not be
+  // automatic. Published: Kirchhoff rods with EI_y = EI_z.
+  void set(std::span<const scene::Span> spans, std::span<const int> arcs_per_span, Law law, RodModel model,
+           TwistOrder twist_order = TwistOrder::bend_twist);
 
   // Solves. converged, arc_not_converged (failed_arc() says which), tendon_collapsed or not_finite.
   scene::Status run() noexcept;
@@ -42,8 +44,6 @@ class BasicMarch {
   const std::vector<BasicArc<D>>& arcs() const { return arcs_; }
   const std::vector<BasicPose<D>>& poses() const { return poses_; }
   int failed_arc() const { return failed_arc_; }
-  // Dense output (shape.h) needs the arcs' wrenches: kept from the next run on, where asked for.
-  void keep_wrenches() { distal_wrenches_S_.resize(arcs_.size()); }
   SolvedRod<D> solved() const { return {spans_, arcs_, poses_, distal_wrenches_S_, law_, model_, twist_order_}; }
 
  private:
@@ -54,15 +54,15 @@ class BasicMarch {
   void run_published();
   void place_arcs();
 
-  std::vector<SpanArcs<D>> spans_;
+  scene::Reused<SpanArcs<D>> spans_;
   std::vector<BasicArc<D>> arcs_;
   std::vector<BasicMotion<double, D>> motions_;  // of the arcs
   std::vector<BasicPose<D>> poses_;
-  std::vector<BasicWrench<double, D>> distal_wrenches_S_;  // of the arcs; empty: not kept
+  std::vector<BasicWrench<double, D>> distal_wrenches_S_;  // of the arcs
   BasicWrench<double, D> base_wrench_;
-  Law law_;
-  RodModel model_;
-  TwistOrder twist_order_;
+  Law law_ = AutomaticLaw::facts.law;
+  RodModel model_ = RodModel::kirchhoff;
+  TwistOrder twist_order_ = TwistOrder::bend_twist;
   int failed_arc_ = -1;
   bool tendon_collapsed_ = false;
 };

@@ -13,56 +13,51 @@
 
 namespace fam {
 
-// A scene that lies in one plane (scene::plane_direction): its spans turned about the axis into the x-y plane, and the
-// rotation back, from the turned frame P to the base frame.
-struct PlanarScene {
-  std::vector<scene::Span> spans;
-  Matrix3d rotation_BP = Matrix3d::Identity();
-};
-std::optional<PlanarScene> in_one_plane(std::span<const scene::Span> spans);
-
-// A rod to which GJ does not matter (scene::is_round), with EI in its place: its moments then turn with nothing, so
-// that fewer arcs do and a soft torsion costs none. What the section's frame turns more about the tangent, per length
-// and moment, is twist_per_Nmm2 (of each span), 1/GJ - 1/EI.
-struct RoundRod {
-  std::vector<scene::Span> spans;
-  std::vector<double> twist_per_Nmm2;
-};
-std::optional<RoundRod> without_torsion(std::span<const scene::Span> spans);
-
 // Which rod: `wanted` if it is not automatic. The Kirchhoff rod is chosen where the sections neither shear nor stretch,
 // or where both together move the tip by less than a tenth of the tolerance; left_out_mm bounds what was left out.
 struct RodChoice {
+  enum class Why { asked_for, does_not_give_way, does_not_matter, may_matter };
   RodModel model = RodModel::automatic;
   double left_out_mm = 0;
-  std::string reason;
+  Why why = Why::asked_for;
 };
 RodChoice choose_rod(std::span<const scene::Span> spans, RodModel wanted, double tolerance_mm);
 
 // Arcs of each span to start with: as many as it takes that no arc has a load length (load_length.h) beyond
 // first_load_length, and that none turns farther by rest curvature, tendons and moments than first_turn_rad where a
-// force acts. Chosen, not measured.
+// force acts; `factor` times as many. Chosen, not measured.
 constexpr double first_load_length = 1.5;
 constexpr double first_turn_rad = 2;
 constexpr int most_first_arcs = 1000;  // of a span
-std::vector<int> first_arcs(std::span<const scene::Span> spans, bool planar);
+void set_first_arcs(std::span<const scene::Span> spans, bool planar, std::vector<int>& arcs, double factor = 1);
 
-// All that is fixed once the options are read against the scene.
+// The factor for an error within the tolerance, before anything is solved: the error with the first arcs is taken as
+// first_arcs_error of the length, and to fall with the law's order.
+constexpr double first_arcs_error = 0.01;
+double arcs_factor(Law law, double tolerance_over_L);
+
+// All that is fixed once the options are read against the loads, the largest on the way.
 struct Choice {
   Law law = Law::automatic;  // chosen
-  RodChoice rod = {};
-  std::optional<PlanarScene> plane;
-  std::optional<RoundRod> round;  // of rods in space
-  bool march = false;             // all loads follow the rod; else a boundary value problem
-  std::string reason;
-
-  // The spans as they are solved, but for a plane's rotation.
-  std::span<const scene::Span> solved_spans(std::span<const scene::Span> scene_spans) const {
-    return round ? std::span<const scene::Span>(round->spans) : scene_spans;
-  }
-  // From the frame that the rod is solved in to the base frame.
-  Matrix3d rotation_BP() const { return plane ? plane->rotation_BP : Matrix3d::Identity(); }
+  bool law_asked_for = false;
+  RodChoice rod;
+  // The plane that all lies in (scene::plane_direction): its direction (y, z), and the rotation from the frame P in
+  // which the rod is solved, in the x-y plane, to the base frame.
+  std::optional<Eigen::Vector2d> plane;
+  Matrix3d rotation_BP = Matrix3d::Identity();
+  // In space, a rod to which GJ does not matter (scene::is_round) is solved with EI in its place: its moments then turn
+  // with nothing, so that fewer arcs do and a soft torsion costs none. What the section's frame turns more about the
+  // tangent, per length and moment, is 1/GJ - 1/EI (twist_per_Nmm2).
+  bool round = false;
+  bool march = false;  // all loads follow the rod; else a boundary value problem
 };
 Choice choose(std::span<const scene::Span> spans, const Options& options, double tolerance_mm);
+std::string reason(const Choice& choice);
+
+// The spans of a planar scene turned about the axis into the x-y plane.
+void turn_into_plane(std::span<const scene::Span> spans, const Choice& choice, scene::Reused<scene::Span>& turned);
+// The spans of a round rod with EI for GJ.
+void leave_out_torsion(std::span<const scene::Span> spans, scene::Reused<scene::Span>& without);
+double twist_per_Nmm2(const scene::Span& span);
 
 }  // namespace fam

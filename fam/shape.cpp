@@ -31,23 +31,31 @@ BasicPose<D> before(const BasicPose<D>& distal, const BasicMotion<double, D>& mo
   return pose;
 }
 
+// The law's step of the part beyond the fraction: the motion, and the wrench at its proximal end.
 template <bool with_shear, int D>
-BasicPose<D> pose_by_law(const SolvedRod<D>& rod, const SpanArcs<D>& span, int arc, double fraction) {
+BasicMotion<double, D> part_step(const SolvedRod<D>& rod, const SpanArcs<D>& span, int arc, double fraction,
+                                 BasicWrench<double, D>& wrench) {
   const BasicPose<D>& distal = rod.poses[static_cast<std::size_t>(arc) + 1];
   const double part = 1 - fraction;
   const BasicArcConstants<D> constants = part_of(span.constants, part);
   ArcForces<double, D> forces = span.template forces<double>(distal.rotation_BS.transpose());
   forces.follower_S_N *= part;
   forces.fixed_D_N *= part;
-  BasicWrench<double, D> wrench = rod.distal_wrenches_S[static_cast<std::size_t>(arc)];
+  wrench = rod.distal_wrenches_S[static_cast<std::size_t>(arc)];
   BasicScrew<double, D> screw;
   const ArcForces<double, D>* distributed = span.distributed ? &forces : nullptr;
   if (constants.is_elastic()) {
     const ElasticSection<with_shear, double, D> section(constants);
-    return before(distal, law_step(rod.law, section, distributed, wrench, screw));
+    return law_step(rod.law, section, distributed, wrench, screw);
   }
   bool collapsed = false;
-  return before(distal, tendon_step<with_shear>(rod.law, constants, distributed, wrench, screw, collapsed));
+  return tendon_step<with_shear>(rod.law, constants, distributed, wrench, screw, collapsed);
+}
+template <int D>
+BasicMotion<double, D> part_step(const SolvedRod<D>& rod, const SpanArcs<D>& span, int arc, double fraction,
+                                 BasicWrench<double, D>& wrench) {
+  return rod.model == RodModel::reissner ? part_step<true>(rod, span, arc, fraction, wrench)
+                                         : part_step<false>(rod, span, arc, fraction, wrench);
 }
 
 SectionPose pose_by_bezier(const Arc& arc, const SectionPose& proximal, double fraction) {
@@ -78,8 +86,16 @@ BasicPose<D> pose_in_arc(const SolvedRod<D>& rod, const SpanArcs<D>& span, int a
   if constexpr (D == 3) {
     if (!facts_of(rod.law).coupled) return pose_by_bezier(rod.arcs[k], rod.poses[k], fraction);
   }
-  return rod.model == RodModel::reissner ? pose_by_law<true>(rod, span, arc, fraction)
-                                         : pose_by_law<false>(rod, span, arc, fraction);
+  BasicWrench<double, D> wrench;
+  return before(rod.poses[k + 1], part_step(rod, span, arc, fraction, wrench));
+}
+
+template <int D>
+BasicWrench<double, D> wrench_in_arc(const SolvedRod<D>& rod, const SpanArcs<D>& span, int arc, double fraction) {
+  if (fraction >= 1) return rod.distal_wrenches_S[static_cast<std::size_t>(arc)];
+  BasicWrench<double, D> wrench;
+  part_step(rod, span, arc, fraction, wrench);
+  return wrench;
 }
 
 template <int D>
@@ -119,12 +135,22 @@ BasicWrench<double, D> BasicShape<D>::wrench_towards(int arc, double fraction, c
 }
 
 template <int D>
-BasicShape<D>::BasicShape(const SolvedRod<D>& rod) : rod_(rod), distal_totals_B_(rod.arcs.size()) {
+void BasicShape<D>::reserve(std::size_t arcs) {
+  span_of_arc_.reserve(arcs);
+  distal_totals_B_.reserve(arcs);
+}
+
+template <int D>
+void BasicShape<D>::set(const SolvedRod<D>& rod) {
+  rod_ = rod;
+  distal_totals_B_.resize(rod.arcs.size());
+  span_of_arc_.clear();
   for (std::size_t i = 0; i < rod.spans.size(); ++i) {
     span_of_arc_.resize(static_cast<std::size_t>(rod.spans[i].end_arc), static_cast<int>(i));
   }
   BasicWrench<double, D> total;  // base frame
-  for (auto span = rod.spans.rbegin(); span != rod.spans.rend(); ++span) {
+  for (std::size_t i = rod.spans.size(); i-- > 0;) {
+    const SpanArcs<D>* span = &rod.spans[i];
     const Eigen::Matrix<double, D, D>& R = rod.poses[static_cast<std::size_t>(span->end_arc)].rotation_BS;
     BasicWrench<double, D> loads_S;
     span->template add_point_loads<double>(R.transpose(), loads_S);
@@ -162,6 +188,8 @@ typename BasicShape<D>::Section BasicShape<D>::section(int arc, double fraction)
 
 template BasicPose<2> pose_in_arc(const SolvedRod<2>&, const SpanArcs<2>&, int, double);
 template BasicPose<3> pose_in_arc(const SolvedRod<3>&, const SpanArcs<3>&, int, double);
+template BasicWrench<double, 2> wrench_in_arc(const SolvedRod<2>&, const SpanArcs<2>&, int, double);
+template BasicWrench<double, 3> wrench_in_arc(const SolvedRod<3>&, const SpanArcs<3>&, int, double);
 template bool any_tendon_collapsed(const SolvedRod<2>&);
 template bool any_tendon_collapsed(const SolvedRod<3>&);
 template class BasicShape<2>;

@@ -25,6 +25,9 @@ constexpr std::array<double, 4> gauss_weights{0.17392742256872693, 0.32607257743
 // Pose at a fraction in [0, 1] of an arc's length from its proximal end; `span` holds the arc.
 template <int D>
 BasicPose<D> pose_in_arc(const SolvedRod<D>& rod, const SpanArcs<D>& span, int arc, double fraction);
+// And the total wrench there, as the law carries it (coupled laws).
+template <int D>
+BasicWrench<double, D> wrench_in_arc(const SolvedRod<D>& rod, const SpanArcs<D>& span, int arc, double fraction);
 
 // Whether a straight tendon (fam/tendon.h), which the laws do not check, has collapsed (smallest_tendon_stretch).
 template <int D>
@@ -33,8 +36,9 @@ bool any_tendon_collapsed(const SolvedRod<D>& rod);
 template <int D>
 class BasicShape {
  public:
-  // Keeps the rod's views. Cost linear in the arcs.
-  explicit BasicShape(const SolvedRod<D>& rod);
+  void reserve(std::size_t arcs);
+  // Keeps the rod's views. Cost linear in the arcs; takes memory where there are more than ever before.
+  void set(const SolvedRod<D>& rod);
 
   // Pose; total internal wrench (base frame, of the side towards the clamp, loads included); the rod's own; strain.
   struct Section {

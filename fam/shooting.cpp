@@ -13,16 +13,30 @@
 namespace fam {
 
 template <int D>
-Shooting<D>::Shooting(LoadedRod<D> rod, double newton_tolerance)
-    : rod_(std::move(rod)),
-      newton_tolerance_(newton_tolerance),
-      length_mm_(rod_.spans().back().end_mm),
-      least_stiffness_Nmm2_(least_stiffness_Nmm2(rod_.spans().front())) {
-  for (const scene::Span& span : rod_.spans()) {
+void Shooting<D>::set(const LoadWay& way, std::span<const int> arcs_per_span, Law law, RodModel model,
+                      double newton_tolerance) {
+  rod_.set(way, arcs_per_span, law, model);
+  newton_tolerance_ = newton_tolerance;
+  length_mm_ = way.to.back().end_mm;
+  least_stiffness_Nmm2_ = std::numeric_limits<double>::infinity();
+  for (const scene::Span& span : way.to)
     least_stiffness_Nmm2_ = std::min(least_stiffness_Nmm2_, least_stiffness_Nmm2(span));
-  }
   cut_into_segments();
-  if (one_equilibrium() && rod_.arc_count() >= 4 * static_cast<int>(rod_.spans().size())) prepare_few_arcs();
+  has_few_arcs_ = one_equilibrium() && rod_.arc_count() >= 4 * static_cast<int>(way.to.size());
+  if (has_few_arcs_) set_few_arcs();
+}
+
+template <int D>
+void Shooting<D>::reserve(const Room& room) {
+  rod_.reserve(room);
+  segments_.reserve(room.arcs);
+  nodes_.reserve(room.arcs);
+  system_.reserve(unknowns * room.arcs);
+  few_counts_.reserve(room.spans);
+  const std::size_t few = std::max(room.arcs / 4, room.spans);
+  if (few == room.arcs) return;
+  if (!few_arcs_) few_arcs_ = std::make_unique<Shooting>();
+  few_arcs_->reserve({few, room.spans, room.tendons});
 }
 
 template <int D>
@@ -33,10 +47,13 @@ bool Shooting<D>::one_equilibrium() const {
 
 template <int D>
 void Shooting<D>::cut_into_segments() {
-  const bool planar = scene::plane_direction(rod_.spans()).has_value();
+  const std::span<const scene::Span> bounds = rod_.way().bounds;
+  const bool planar = scene::plane_direction(bounds).has_value();
+  bounds_ = {};
+  segments_.clear();
   double since_cut = 0;
   int end_arc = rod_.arc_count();
-  walk_from_tip(rod_.spans(), rod_.arcs_per_span(), [&](const LoadedCell& arc) {
+  walk_from_tip(bounds, rod_.arcs_per_span(), [&](const LoadedCell& arc) {
     const double least_Nmm2 = least_stiffness_Nmm2(arc.span);
     const double load_length =
         arc.load_length(planar ? arc.span.stiffness.bending_Nmm2.minCoeff() : least_Nmm2, D == 3);
@@ -65,17 +82,18 @@ void Shooting<D>::cut_into_segments() {
 }
 
 template <int D>
-void Shooting<D>::prepare_few_arcs() {
-  std::vector<int> few = rod_.arcs_per_span();
-  for (int& count : few) count = std::max(1, count / 4);
-  few_arcs_ = std::make_unique<Shooting>(LoadedRod<D>(rod_.spans(), few, rod_.law(), rod_.model()), 1e-3);
+void Shooting<D>::set_few_arcs() {
+  few_counts_.assign(rod_.arcs_per_span().begin(), rod_.arcs_per_span().end());
+  for (int& count : few_counts_) count = std::max(1, count / 4);
+  if (!few_arcs_) few_arcs_ = std::make_unique<Shooting>();
+  few_arcs_->set(rod_.way(), few_counts_, rod_.law(), rod_.model(), 1e-3);
 }
 
 template <int D>
 void Shooting<D>::forget_work() {
   newton_steps_ = 0;
   rod_.forget_collapse();
-  if (few_arcs_) few_arcs_->forget_work();
+  if (has_few_arcs_) few_arcs_->forget_work();
 }
 
 // March without load from a tip turned so that the clamp has R = I.
@@ -143,7 +161,7 @@ void Shooting<D>::evaluate_segment(std::size_t k, SegmentEquations& equations) c
 
 // Moves the nodes; the largest change of an unknown.
 template <int D>
-double Shooting<D>::apply(const Eigen::VectorXd& step) {
+double Shooting<D>::apply(const Eigen::Ref<const Eigen::VectorXd>& step) {
   double largest_turn = 0;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     largest_turn = std::max(largest_turn, step.segment<rotations>(static_cast<Eigen::Index>(unknowns * k)).norm());
@@ -245,7 +263,7 @@ bool Shooting<D>::newton(double tolerance) {
 
 template <int D>
 bool Shooting<D>::solve_at_once() {
-  if (few_arcs_ && few_arcs_->segments_.size() == 1 && few_arcs_->solve_at_once()) {
+  if (has_few_arcs_ && few_arcs_->segments_.size() == 1 && few_arcs_->solve_at_once()) {
     set_load(1);
     nodes_ = few_arcs_->nodes_;
     slope_ = few_arcs_->slope_;
@@ -253,6 +271,11 @@ bool Shooting<D>::solve_at_once() {
     return newton_one_segment(true, newton_tolerance_);
   }
   start_unloaded();
+  return solve_from_here();
+}
+
+template <int D>
+bool Shooting<D>::solve_from_here() {
   set_load(1);
   return newton(newton_tolerance_);
 }
@@ -267,8 +290,7 @@ bool Shooting<D>::solve_from(const Shooting& fewer) {
   nodes_ = fewer.nodes_;
   newton_steps_ = fewer.newton_steps_;
   if (segments_.size() > 1) system_.resize(unknowns * static_cast<int>(segments_.size()) - rotations - D);
-  set_load(1);
-  return newton(newton_tolerance_);
+  return solve_from_here();
 }
 
 template <int D>

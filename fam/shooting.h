@@ -47,8 +47,9 @@ class Shooting {
   using Node = SectionState<D>;
   using Rotation = Eigen::Matrix<double, D, D>;
 
-  // Allocates all it needs.
-  Shooting(LoadedRod<D> rod, double newton_tolerance);
+  void reserve(const Room& room);
+  // Takes memory where more arcs, segments or spans are asked for than ever before.
+  void set(const LoadWay& way, std::span<const int> arcs_per_span, Law law, RodModel model, double newton_tolerance);
 
   const LoadedRod<D>& rod() const { return rod_; }
   const LoadBounds& bounds() const { return bounds_; }
@@ -61,10 +62,20 @@ class Shooting {
   void set_load(double factor) { rod_.set_load(factor); }
   // No load: the rest shape.
   void start_unloaded();
+  // From the shape that the rod had, at the start of the way: state_at(arc) at an arc's distal end, without the point
+  // loads there.
+  template <class StateAt>
+  void start_at(StateAt&& state_at) {
+    set_load(0);
+    for (std::size_t k = 0; k < segments_.size(); ++k) nodes_[k] = state_at(segments_[k].end_arc - 1);
+    nodes_.back().wrench = {};
+  }
   // From the nodes as they are to those of the present load.
   bool newton(double tolerance);
   // The full load from the rest shape; first with a quarter of the arcs, whose derivatives then serve for all.
   bool solve_at_once();
+  // The full load from the nodes as they are.
+  bool solve_from_here();
   // The full load from the solution of the same spans with fewer arcs, each of which became several.
   bool solve_from(const Shooting& fewer);
 
@@ -90,7 +101,7 @@ class Shooting {
   };
 
   void cut_into_segments();
-  void prepare_few_arcs();
+  void set_few_arcs();
   template <int N>
   SectionState<D, Dual<N>> varied(const Node& node) const;
   template <int N>
@@ -98,20 +109,22 @@ class Shooting {
   void assemble(int k, const SegmentEquations& equations);
   bool newton_one_segment(bool fresh_slope, double tolerance);
   bool newton_segments(double tolerance);
-  double apply(const Eigen::VectorXd& step);
+  double apply(const Eigen::Ref<const Eigen::VectorXd>& step);
   double force_unit() const { return least_stiffness_Nmm2_ / (length_mm_ * length_mm_); }
   double moment_unit() const { return least_stiffness_Nmm2_ / length_mm_; }
 
   LoadedRod<D> rod_;
-  double newton_tolerance_;
-  double length_mm_;
-  double least_stiffness_Nmm2_;
+  double newton_tolerance_ = 0;
+  double length_mm_ = 0;
+  double least_stiffness_Nmm2_ = 0;
   LoadBounds bounds_;
   std::vector<ArcRange> segments_;
   std::vector<Node> nodes_;
   BandSystem<rotations + unknowns - 1, 2 * unknowns - rotations - 1> system_;  // of several segments
   Eigen::Matrix<double, rotations, rotations> slope_;                          // of one segment
+  bool has_few_arcs_ = false;
   std::unique_ptr<Shooting> few_arcs_;  // a quarter of the arcs, where the full load is solved for at once
+  std::vector<int> few_counts_;
   int newton_steps_ = 0;
 };
 

@@ -1,7 +1,6 @@
 #include "fam/solve.h"
 
-#include "fam/embedding.h"
-#include "fam/tolerance.h"
+#include "fam/answer.h"
 #include "scene/load_visitor.h"
 
 namespace fam {
@@ -24,14 +23,18 @@ std::string beyond_published(const scene::Load& load) {
       [](const scene::Tendon&) { return ""; });
 }
 
-std::string unsupported(const scene::Scene& scene, std::span<const Span> spans, const Options& options) {
-  if (facts_of(options.law).coupled) return {};
+}  // namespace
+
+std::string refusal(const Problem& problem) {
+  if (facts_of(problem.choice().law).coupled) return {};
+  const scene::Scene& scene = problem.scene();
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     const std::string what = beyond_published(scene.loads[i]);
     if (!what.empty()) return "loads[" + std::to_string(i) + "]: the published law cannot solve " + what;
   }
-  if (options.model == RodModel::reissner) return "the published law is a Kirchhoff rod's: no shear, no stretch";
-  for (const Span& span : spans) {
+  if (problem.options().model == RodModel::reissner)
+    return "the published law is a Kirchhoff rod's: no shear, no stretch";
+  for (const Span& span : problem.scene_spans()) {
     if (span.stiffness.bending_Nmm2[0] != span.stiffness.bending_Nmm2[1]) {
       return "the published law needs sections with one bending stiffness, EI_y = EI_z";
     }
@@ -39,69 +42,42 @@ std::string unsupported(const scene::Scene& scene, std::span<const Span> spans, 
   return {};
 }
 
+namespace {
+
+Equilibrium solve_fixed(const Problem& problem, Run& run, Run& spare, Run& another_spare) {
+  run.solve(problem, scene::cells_per_span(problem.spans(), problem.options().arcs));
+  if (!run.converged()) return failure(run);
+  const ArcExtent extent = run.extent(problem);
+  if (verdict(run.engine, problem.choice().law, extent) == Status::arc_not_converged)
+    return too_long_for_series(extent);
+  const double error_mm = problem.options().estimate_error ? estimate_by_doubling_mm(problem, run, spare)
+                                                           : problem.choice().rod.left_out_mm;
+  return success(problem, run, error_mm, is_stable(problem, run, spare, another_spare), "number of arcs given");
+}
+
+Equilibrium solve_by_tolerance(const Problem& problem, Run& one, Run& another, Run& spare) {
+  const Found found = solve_to_tolerance(problem, one, another);
+  if (found.status == Status::tolerance_not_met) return tolerance_not_met(problem, *found.run, found.error_mm);
+  if (found.status != Status::converged) return failure(*found.run);
+  return success(problem, *found.run, found.error_mm, is_stable(problem, *found.run, *found.other, spare),
+                 "fewest arcs found whose estimate meets the tolerance");
+}
+
 }  // namespace
 
 Equilibrium solve(const scene::Scene& scene, const Options& options) {
-  const std::vector<Span> spans = scene::spans_of(scene);
-  const std::string why_not = unsupported(scene, spans, options);
+  Problem problem;
+  problem.set(scene, options);
+  const std::string why_not = refusal(problem);
   if (!why_not.empty()) {
     Equilibrium result;
     result.status = Status::unsupported;
     result.message = why_not;
     return result;
   }
-  const double tolerance_mm = options.tolerance_mm > 0 ? options.tolerance_mm : 1e-3 * spans.back().end_mm;
-  const Choice choice = choose(spans, options, tolerance_mm);
-  const Task task{scene, spans, choice.solved_spans(spans), options, choice, tolerance_mm};
-  return options.arcs > 0 ? solve_fixed(task) : solve_to_tolerance(task);
-}
-
-std::optional<Prepared> prepare(const scene::Scene& scene, const Options& options, std::string& reason) {
-  const std::vector<Span> spans = scene::spans_of(scene);
-  reason = unsupported(scene, spans, options);
-  if (!reason.empty()) return std::nullopt;
-  std::vector<int> arcs = scene::cells_per_span(spans, options.arcs);
-  Choice choice = choose(spans, options, options.tolerance_mm);
-  Engine solver = make_engine(spans, arcs, choice, options);
-  const std::span<const Span> solved = choice.solved_spans(spans);
-  std::vector<Span> solved_spans(solved.begin(), solved.end());
-  return Prepared{std::move(solver), std::move(choice), std::move(solved_spans), std::move(arcs)};
-}
-
-Status run_prepared(Prepared& prepared) {
-  const Status status = std::visit([](auto& solver) { return solver.run(); }, prepared.solver);
-  if (status != Status::converged) return status;
-  return verdict(prepared.solver, prepared.choice.law,
-                 extent_of_arcs(prepared.solver, prepared.spans, prepared.arcs_per_span));
-}
-
-std::vector<Arc> arcs_of(const Prepared& prepared) {
-  const Matrix3d rotation = prepared.choice.rotation_BP();
-  std::vector<Arc> result;
-  std::visit(
-      [&](const auto& solver) {
-        result.reserve(solver.arcs().size());
-        for (const auto& arc : solver.arcs()) {
-          result.push_back(
-              {{rotation * embedded_angular(arc.screw.rotation), rotation * embedded(arc.screw.translation_mm)},
-               arc.twist_before_rad,
-               arc.twist_after_rad});
-        }
-      },
-      prepared.solver);
-  return result;
-}
-
-std::vector<SectionPose> poses_of(const Prepared& prepared) {
-  const Matrix3d rotation = prepared.choice.rotation_BP();
-  std::vector<SectionPose> result;
-  std::visit(
-      [&](const auto& solver) {
-        result.reserve(solver.poses().size());
-        for (const auto& pose : solver.poses()) result.push_back(in_base(pose, rotation));
-      },
-      prepared.solver);
-  return result;
+  Run one, another, spare;
+  return options.arcs > 0 ? solve_fixed(problem, one, another, spare)
+                          : solve_by_tolerance(problem, one, another, spare);
 }
 
 }  // namespace fam

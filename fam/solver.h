@@ -79,8 +79,8 @@ class Solver {
   scene::Wrench base_wrench_B() const;
   // At the arcs' ends, clamp to tip; empty before a solution.
   std::span<const double> s_mm() const;
-  std::span<const scene::Pose> poses() const;          // X_BS
-  std::span<const scene::Wrench> wrenches_B() const;   // the rod's own, as scene::Station has them
+  std::span<const scene::Pose> poses() const;         // X_BS
+  std::span<const scene::Wrench> wrenches_B() const;  // the rod's own, as scene::Station has them
   // Anywhere, as accurate as at the arcs' ends.
   scene::Pose pose_at(double s_mm) const noexcept;
   scene::Wrench wrench_at(double s_mm) const noexcept;

@@ -19,26 +19,28 @@ struct SpanArcs {
   int first_arc = 0, end_arc = 0;  // first_arc .. end_arc - 1
 
   SpanArcs() = default;
-  SpanArcs(const scene::Span& span, RodModel model, int first, int count)
-      : constants(arc_constants<D>(span, count, model)),
-        distributed(!span.follower_force_S_N_per_mm.isZero(0) || !span.fixed_force_B_N_per_mm.isZero(0)),
-        first_arc(first),
-        end_arc(first + count) {
-    set_load(span, model, 1);
+  SpanArcs(SpanArcs&&) noexcept = default;
+  SpanArcs& operator=(SpanArcs&&) noexcept = default;
+  SpanArcs(const scene::Span& span, RodModel model, int first, int count) { set({span, span}, model, first, count); }
+
+  // Takes memory for tendons alone, where there are more than ever before.
+  void set(const SpanOnWay& span, RodModel model, int first, int count) {
+    const auto is_distributed = [](const scene::Span& s) {
+      return !s.follower_force_S_N_per_mm.isZero(0) || !s.fixed_force_B_N_per_mm.isZero(0);
+    };
+    distributed = is_distributed(span.from) || is_distributed(span.to);
+    first_arc = first;
+    end_arc = first + count;
+    set_constants(constants, tendons_, span, count, model);
+    set_loads(span);
   }
 
-  // All loads times the factor.
-  void set_load(const scene::Span& span, RodModel model, double factor) {
-    const auto load = [factor](const scene::Wrench& wrench) -> BasicWrench<double, D> {
-      return {factor * linear_part<D>(wrench.force_N), factor * angular_part<D>(wrench.moment_Nmm)};
-    };
-    if (!span.tendons.empty()) set_tendons(constants, span, model, factor);
-    follower_load_S = load(span.follower_load_S);
-    fixed_load_B = load(span.fixed_load_B);
-    fixed_force_arms_BS_Nmm = factor * span.fixed_force_arms_BS_Nmm.topLeftCorner<D, D>();
-    const double along_arc = factor * constants.length_mm;
-    follower_force_S_N = along_arc * linear_part<D>(span.follower_force_S_N_per_mm);
-    fixed_force_B_N = along_arc * linear_part<D>(span.fixed_force_B_N_per_mm);
+  void reserve(std::size_t tendons) { tendons_.reserve(tendons); }
+
+  // Only what depends on the share.
+  void set_way(const SpanOnWay& span, RodModel model) {
+    set_share(constants, tendons_, span, model);
+    set_loads(span);
   }
 
   // The point loads at the span's distal end, for the section there.
@@ -60,6 +62,25 @@ struct SpanArcs {
   ArcForces<T, D> forces(const Eigen::Matrix<T, D, D>& rotation_SB) const {
     return {follower_force_S_N.template cast<T>(), rotation_SB * fixed_force_B_N.template cast<T>()};
   }
+
+ private:
+  void set_loads(const SpanOnWay& span) {
+    const auto load = [&](const scene::Wrench& from, const scene::Wrench& to) -> BasicWrench<double, D> {
+      return {linear_part<D>(span.between(from.force_N, to.force_N)),
+              angular_part<D>(span.between(from.moment_Nmm, to.moment_Nmm))};
+    };
+    follower_load_S = load(span.from.follower_load_S, span.to.follower_load_S);
+    fixed_load_B = load(span.from.fixed_load_B, span.to.fixed_load_B);
+    fixed_force_arms_BS_Nmm =
+        span.between(span.from.fixed_force_arms_BS_Nmm, span.to.fixed_force_arms_BS_Nmm).template topLeftCorner<D, D>();
+    const auto along_arc = [&](const Vector3d& from, const Vector3d& to) -> Vector<double, D> {
+      return constants.length_mm * linear_part<D>(span.between(from, to));
+    };
+    follower_force_S_N = along_arc(span.from.follower_force_S_N_per_mm, span.to.follower_force_S_N_per_mm);
+    fixed_force_B_N = along_arc(span.from.fixed_force_B_N_per_mm, span.to.fixed_force_B_N_per_mm);
+  }
+
+  std::vector<BasicTendon<D>> tendons_;  // seen by the constants
 };
 
 }  // namespace fam

@@ -33,7 +33,8 @@ class StabilityJudge;
 template <>
 class StabilityJudge<3> {
  public:
-  StabilityJudge(const LoadedRod<3>&, std::size_t) {}
+  void reserve(const Room&) {}
+  void set(const LoadedRod<3>&) {}
   Stability operator()(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
                        std::span<const SectionState<3>> nodes) {
     return stability(rod, segments, nodes);
@@ -43,8 +44,12 @@ class StabilityJudge<3> {
 template <>
 class StabilityJudge<2> {
  public:
-  StabilityJudge(const LoadedRod<2>& rod, std::size_t segments)
-      : in_space_(rod.spans(), rod.arcs_per_span(), rod.law(), rod.model()), nodes_(segments) {}
+  void reserve(const Room& room) {
+    in_space_.reserve(room);
+    nodes_.reserve(room.arcs);
+  }
+  // Takes memory where more arcs or segments are asked for than ever before.
+  void set(const LoadedRod<2>& rod) { in_space_.set(rod.way(), rod.arcs_per_span(), rod.law(), rod.model()); }
   Stability operator()(const LoadedRod<2>& rod, std::span<const ArcRange> segments,
                        std::span<const SectionState<2>> nodes);
 

@@ -132,7 +132,8 @@ void set_shape(scene::Equilibrium& result, const scene::Scene& scene, std::span<
     result.message = "a tendon's path has no length somewhere: |v + u x r| = 0";
     return;
   }
-  const BasicShape<D> shape(rod);
+  BasicShape<D> shape;
+  shape.set(rod);
   result.stations = {station<D>(0, shape.section(0, 0), rotation_BP)};
   for (const Place& place : thinned(places(spans, rod), rod)) {
     result.stations.push_back(station<D>(place.s_mm, shape.section(place.arc, place.fraction), rotation_BP));

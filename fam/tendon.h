@@ -21,7 +21,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <vector>
+#include <span>
 
 namespace fam {
 
@@ -38,7 +38,7 @@ constexpr double smallest_tendon_stretch = 1e-8;
 
 // Pulls T t/|t| and their moments r x T t/|t| on a section under a strain times h (section frame).
 template <int D>
-BasicWrench<double, D> tendon_pulls(const std::vector<BasicTendon<D>>& tendons, const BasicScrew<double, D>& strain) {
+BasicWrench<double, D> tendon_pulls(std::span<const BasicTendon<D>> tendons, const BasicScrew<double, D>& strain) {
   BasicWrench<double, D> sum;
   for (const BasicTendon<D>& tendon : tendons) {
     const Vector<double, D> t = strain.translation_mm + cross(strain.rotation, tendon.arm_mm);
@@ -56,7 +56,6 @@ class TendonSection {
   static constexpr int rotations = rotations_of(D);
   static constexpr int unknowns = with_shear ? rotations + D : rotations;
   using Strain = Eigen::Matrix<T, unknowns, 1>;  // u h, then v h where it gives way
-  using Tendons = std::vector<BasicTendon<D>>;
 
   template <class Constants>  // BasicArcConstants<D>
   explicit TendonSection(const Constants& arc) : tendons_(arc.tendons), rest_translation_mm_(arc.rest_translation_mm) {
@@ -288,7 +287,7 @@ class TendonSection {
     }
   }
 
-  const Tendons& tendons_;
+  const std::span<const BasicTendon<D>> tendons_;
   const Vector<double, D>& rest_translation_mm_;
   Eigen::Matrix<double, unknowns, 1> compliance_, rest_;
   Eigen::Matrix<T, unknowns, unknowns> factors_;

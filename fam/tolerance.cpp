@@ -1,30 +1,18 @@
 #include "fam/tolerance.h"
 
-#include "fam/answer.h"
 #include "fam/shape.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
+#include <numeric>
 
 namespace fam {
 namespace {
 
-using scene::Equilibrium;
 using scene::Span;
 using scene::Status;
-
-template <int D>
-Status run_solver(BasicMarch<D>& march, const Engine*) {
-  march.keep_wrenches();
-  return march.run();
-}
-template <int D>
-Status run_solver(BasicBoundaryValue<D>& problem, const Engine* fewer_arcs) {
-  return fewer_arcs ? problem.run_from(std::get<BasicBoundaryValue<D>>(*fewer_arcs)) : problem.run();
-}
 
 // How far two solved rods are apart, at the ends and the middles of the first one's arcs.
 struct Distance {
@@ -61,83 +49,74 @@ Distance distance(const SolvedRod<D>& a, const SolvedRod<D>& b) {
 }
 
 Distance distance(const Run& a, const Run& b) {
-  return std::visit(
-      [&](const auto& solver) {
-        return distance(solver.solved(), std::get<std::decay_t<decltype(solver)>>(b.solver).solved());
-      },
-      a.solver);
+  return a.engine.visit_with(b.engine,
+                             [](const auto& one, const auto& other) { return distance(one.solved(), other.solved()); });
 }
 
-double round_off_mm(std::span<const Span> spans, const Run& run) {
-  return 4 * std::numeric_limits<double>::epsilon() * spans.back().end_mm * std::sqrt(run.arc_count());
-}
-
-ArcExtent extent_of(const Task& task, const Run& run) {
-  return extent_of_arcs(run.solver, task.spans, run.arcs);
+double round_off_mm(const Problem& problem, const Run& run) {
+  return 4 * std::numeric_limits<double>::epsilon() * problem.length_mm() * std::sqrt(run.arc_count());
 }
 
 // The answer with more arcs, from that with fewer. Where that one is far off, or its arcs are too long to lead there,
 // the loads grow from nothing once more: it may lie on another branch.
-Run refined(const Task& task, const std::vector<int>& arcs, const Run& coarse) {
-  const auto afresh = [&] { return Run(task, arcs); };
-  if (is_march(coarse.solver) || coarse.status != Status::converged) return afresh();
-  if (extent_of(task, coarse).swing_rad > leading_swing_rad) return afresh();
-  Run fine(task, arcs, &coarse);
-  const bool near = fine.status == Status::converged &&
-                    distance(coarse, fine).position_mm <= leading_distance * task.spans.back().end_mm;
-  return near ? std::move(fine) : afresh();
+void refine(const Problem& problem, std::span<const int> arcs, int factor, const Run& coarse, Run& fine) {
+  const bool leads =
+      !coarse.engine.is_march() && coarse.converged() && coarse.extent(problem).swing_rad <= leading_swing_rad;
+  if (leads) {
+    fine.solve(problem, arcs, factor, &coarse);
+    if (fine.converged() && distance(coarse, fine).position_mm <= leading_distance * problem.length_mm()) return;
+  }
+  fine.solve(problem, arcs, factor);
 }
 
 // Whether arcs twice as many cannot help: two runs failed at the same load, or the work is used up.
 bool is_the_end(const Run& last, const Run& run) {
-  const bool march = is_march(run.solver);
+  const bool march = run.engine.is_march();
   if (run.status == Status::tendon_collapsed && last.status == Status::tendon_collapsed && march) return true;
   if (run.status == Status::work_limit && run.arc_count() > most_arcs_marched / most_newton_steps) return true;
-  if (last.status == Status::converged || march) return false;
-  const double reached = load_factor(run.solver);
-  return std::abs(reached - load_factor(last.solver)) <= same_load * reached;
+  if (last.converged() || march) return false;
+  const double reached = run.engine.load_factor();
+  return std::abs(reached - last.engine.load_factor()) <= same_load * reached;
 }
 
-// The runs of one task, each compared with the one before along the whole rod, and what they say of the error.
+// The runs of one problem, each compared with the one before along the whole rod, and what they say of the error.
 class Ladder {
  public:
-  explicit Ladder(const Task& task)
-      : task_(task), order_(facts_of(task.choice.law).order), length_mm_(task.spans.back().end_mm) {}
+  explicit Ladder(const Problem& problem) : problem_(problem), order_(facts_of(problem.choice().law).order) {}
 
   double error_mm() const { return error_mm_; }
 
   // Which of two runs, the finer with `ratio` times the arcs, meets the tolerance; null if none.
   const Run* sufficient(const Run& coarse, const Run& fine, double ratio) {
     const Distance d = distance(coarse, fine);
-    const double d_mm = std::max(d.position_mm, d.rotation_rad * length_mm_);
+    const double d_mm = largest_mm(d);
     if (meets(coarse, coarse_safety, d)) return &coarse;
     const double least = std::isnan(last_mm_) ? unconfirmed : d_mm > contraction * last_mm_ ? 1 : 0;
     const double by_order = fine_safety / (std::pow(ratio, order_ - 1) - 1);
-    if (meets(fine, std::max(least, by_order + distrust * d_mm / length_mm_), d)) return &fine;
+    if (meets(fine, std::max(least, by_order + distrust * d_mm / problem_.length_mm()), d)) return &fine;
     last_mm_ = d_mm;
     return nullptr;
   }
 
   // Times the first arcs, after runs with `multiple` times that did not do.
   int next(int multiple) const {
-    const double more = 1.05 * std::pow(needed_mm_ / task_.tolerance_mm, 1.0 / order_);
+    const double more = 1.05 * std::pow(needed_mm_ / problem_.tolerance_mm(), 1.0 / order_);
     const int wanted = static_cast<int>(std::clamp(std::ceil(more * multiple), 1.3 * multiple, 4.0 * multiple));
     return std::max(wanted, multiple + 1);
   }
 
  private:
+  double largest_mm(const Distance& d) const { return std::max(d.position_mm, d.rotation_rad * problem_.length_mm()); }
   bool meets(const Run& run, double factor, const Distance& d) {
-    const double d_mm = std::max(d.position_mm, d.rotation_rad * length_mm_);
-    const double rest_mm = round_off_mm(task_.spans, run) + task_.choice.rod.left_out_mm;
+    const double rest_mm = round_off_mm(problem_, run) + problem_.choice().rod.left_out_mm;
     error_mm_ = factor * d.position_mm + rest_mm;
-    if (extent_of(task_, run).swing_rad > longest_swing_rad) error_mm_ = std::max(error_mm_, length_mm_);
-    needed_mm_ = std::max(error_mm_, factor * d_mm + rest_mm);
-    return needed_mm_ <= task_.tolerance_mm;
+    if (run.extent(problem_).swing_rad > longest_swing_rad) error_mm_ = std::max(error_mm_, problem_.length_mm());
+    needed_mm_ = std::max(error_mm_, factor * largest_mm(d) + rest_mm);
+    return needed_mm_ <= problem_.tolerance_mm();
   }
 
-  const Task& task_;
+  const Problem& problem_;
   const int order_;
-  const double length_mm_;
   double error_mm_ = std::numeric_limits<double>::infinity();
   double needed_mm_ = error_mm_;  // what must meet the tolerance: the error, and that of follower loads' directions x L
   double last_mm_ = std::numeric_limits<double>::quiet_NaN();  // distance of the last two runs but one
@@ -145,60 +124,57 @@ class Ladder {
 
 }  // namespace
 
-Run::Run(const Task& task, std::vector<int> arcs_per_span, const Run* fewer_arcs)
-    : solver(make_engine(task.spans, arcs_per_span, task.choice, task.options)), arcs(std::move(arcs_per_span)) {
-  const Engine* from = fewer_arcs && fewer_arcs->status == Status::converged ? &fewer_arcs->solver : nullptr;
-  status = std::visit([&](auto& s) { return run_solver(s, from); }, solver);
+void Run::reserve(const Room& room, Law law) {
+  engine.reserve(room, law);
+  arcs.reserve(room.spans);
 }
 
-std::vector<int> times(std::vector<int> arcs, int factor) {
+void Run::set(const Problem& problem, std::span<const int> arcs_per_span, int factor) {
+  arcs.assign(arcs_per_span.begin(), arcs_per_span.end());
   for (int& count : arcs) count *= factor;
-  return arcs;
+  engine.set(problem, arcs);
 }
 
-Equilibrium solve_fixed(const Task& task) {
-  const Run run(task, scene::cells_per_span(task.spans, task.options.arcs));
-  if (run.status != Status::converged) return failure(run);
-  const ArcExtent extent = extent_of(task, run);
-  if (verdict(run.solver, task.choice.law, extent) == Status::arc_not_converged) return too_long_for_series(extent);
-  double error = 0;
-  if (task.options.estimate_error) {
-    const Run twice(task, times(run.arcs, 2), &run);
-    const double factor = std::pow(2, facts_of(task.choice.law).order);
-    error = twice.status == Status::converged
-                ? factor / (factor - 1) * distance(run, twice).position_mm + round_off_mm(task.spans, run)
-                : std::numeric_limits<double>::infinity();
-    if (!extent.resolved()) error = std::max(error, task.spans.back().end_mm);
-  }
-  return success(task, run, error + task.choice.rod.left_out_mm, "number of arcs given");
+void Run::solve(const Problem& problem, std::span<const int> arcs_per_span, int factor, const Run* fewer_arcs) {
+  set(problem, arcs_per_span, factor);
+  status = fewer_arcs && fewer_arcs->converged() ? engine.run_from(fewer_arcs->engine) : engine.run();
+}
+
+double estimate_by_doubling_mm(const Problem& problem, const Run& run, Run& spare) {
+  spare.solve(problem, run.arcs, 2, &run);
+  if (!spare.converged()) return std::numeric_limits<double>::infinity();
+  const double factor = std::pow(2, facts_of(problem.choice().law).order);
+  const double error_mm = factor / (factor - 1) * distance(run, spare).position_mm + round_off_mm(problem, run);
+  const double least_mm = run.extent(problem).resolved() ? 0 : problem.length_mm();
+  return std::max(error_mm, least_mm) + problem.choice().rod.left_out_mm;
 }
 
 // Runs with growing multiples of the first arcs.
-Equilibrium solve_to_tolerance(const Task& task) {
-  const std::vector<int> first = first_arcs(task.spans, task.choice.plane.has_value());
-  int count = 0;
-  for (const int arcs : first) count += arcs;
-  Ladder ladder(task);
-  int multiple = 1;
-  std::optional<Run> coarse(std::in_place, task, first);
-  int next = 2;
-  while (static_cast<double>(next) * count <= max_arcs) {
-    Run fine = refined(task, times(first, next), *coarse);
+Found solve_to_tolerance(const Problem& problem, Run& one, Run& another) {
+  std::vector<int> first;
+  set_first_arcs(problem.spans(), problem.choice().plane.has_value(), first);
+  const int count = std::accumulate(first.begin(), first.end(), 0);
+  Ladder ladder(problem);
+  Run *coarse = &one, *fine = &another;
+  coarse->solve(problem, first);
+  for (int multiple = 1, next = 2; static_cast<double>(next) * count <= max_arcs;) {
+    refine(problem, first, next, *coarse, *fine);
     const double ratio = static_cast<double>(next) / multiple;
     int after = 2 * next;
-    if (fine.status != Status::converged && is_the_end(*coarse, fine)) return failure(fine);
-    if (coarse->status == Status::converged && fine.status == Status::converged) {
-      if (const Run* run = ladder.sufficient(*coarse, fine, ratio)) {
-        return success(task, *run, ladder.error_mm(), "fewest arcs found whose estimate meets the tolerance");
+    if (!fine->converged() && is_the_end(*coarse, *fine)) return {fine, coarse, fine->status};
+    if (coarse->converged() && fine->converged()) {
+      if (const Run* run = ladder.sufficient(*coarse, *fine, ratio)) {
+        if (run == coarse) std::swap(coarse, fine);
+        return {fine, coarse, Status::converged, ladder.error_mm()};
       }
       after = ladder.next(next);
     }
     multiple = next;
     next = after;
-    coarse.emplace(std::move(fine));
+    std::swap(coarse, fine);
   }
-  if (coarse->status != Status::converged) return failure(*coarse);
-  return tolerance_not_met(task, *coarse, ladder.error_mm());
+  if (!coarse->converged()) return {coarse, fine, coarse->status};
+  return {coarse, fine, Status::tolerance_not_met, ladder.error_mm()};
 }
 
 }  // namespace fam

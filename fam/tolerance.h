@@ -10,36 +10,27 @@
 #include "fam/engine.h"
 
 #include "scene/equilibrium.h"
-#include "scene/scene.h"
 
 #include <vector>
 
 namespace fam {
 
-// What a solve was asked for and how.
-struct Task {
-  const scene::Scene& scene;
-  std::span<const scene::Span> scene_spans;
-  std::span<const scene::Span> spans;  // as they are solved, but for a plane's rotation
-  const Options& options;
-  const Choice& choice;
-  double tolerance_mm;
-};
-
-// A march or a boundary value problem, solved.
+// A problem solved with some arcs, in memory that is kept from one to the next.
 struct Run {
-  Engine solver;
+  Engine engine;
   std::vector<int> arcs;  // of each span
-  scene::Status status;
+  scene::Status status = scene::Status::not_converged;
 
-  // From the solution with fewer arcs, or else from no load.
-  Run(const Task& task, std::vector<int> arcs_per_span, const Run* fewer_arcs = nullptr);
-
-  int arc_count() const { return fam::arc_count(solver); }
+  void reserve(const Room& room, Law law);
+  // Not solved yet.
+  void set(const Problem& problem, std::span<const int> arcs_per_span, int factor = 1);
+  // With `factor` times the arcs of each span, from the solution with fewer arcs, or else from no load.
+  void solve(const Problem& problem, std::span<const int> arcs_per_span, int factor = 1,
+             const Run* fewer_arcs = nullptr);
+  bool converged() const { return status == scene::Status::converged; }
+  int arc_count() const { return engine.arc_count(); }
+  ArcExtent extent(const Problem& problem) const { return extent_of_arcs(engine, problem.spans(), arcs); }
 };
-
-// Arcs of each span times a factor.
-std::vector<int> times(std::vector<int> arcs, int factor);
 
 // Automatic choice: runs with N and r N arcs that lie d apart; the estimate is coarse_safety d for the first and
 // d (fine_safety / (r^(p - 1) - 1) + distrust d / L) for the second: an order less than the law's, which few arcs do
@@ -57,7 +48,16 @@ constexpr double leading_swing_rad = 1.25;
 // Runs that fail within this of the same load, relative, fail by the rod and not by their arcs.
 constexpr double same_load = 1e-3;
 
-scene::Equilibrium solve_fixed(const Task& task);
-scene::Equilibrium solve_to_tolerance(const Task& task);
+// The error of a run as its own number of arcs doubled shows it, in a spare run; infinite where that one fails.
+double estimate_by_doubling_mm(const Problem& problem, const Run& run, Run& spare);
+
+// What the ladder ends with: the run that meets the tolerance (status converged), or the last; and the other one.
+struct Found {
+  Run* run;
+  Run* other;
+  scene::Status status;
+  double error_mm = 0;
+};
+Found solve_to_tolerance(const Problem& problem, Run& first, Run& second);
 
 }  // namespace fam

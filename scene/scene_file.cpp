@@ -1,102 +1,19 @@
 #include "scene/scene_file.h"
 
+#include "scene/json_file.h"
 #include "scene/load_visitor.h"
-
-#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
 #include <iostream>
 #include <iterator>
-#include <set>
 
 namespace scene {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-// What no scene needs, refused while the file is read, so that time and memory stay in proportion to its size.
-constexpr int max_depth = 16;          // the format needs 6
-constexpr std::size_t max_keys = 32;   // of one object; the format needs 5
-constexpr int max_values = 4'000'000;  // of the file; 100 000 loads need some 2 million
-
-// Text from the file for an error message: one line of printable ASCII, other bytes as \xHH, cut where it is longer.
-std::string printable(const std::string& text, std::size_t longest) {
-  constexpr const char* digits = "0123456789abcdef";
-  std::string shown;
-  for (const char c : text) {
-    if (shown.size() >= longest) return shown + "...";
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte >= ' ' && byte <= '~') shown += c;
-    else shown += {'\\', 'x', digits[byte / 16], digits[byte % 16]};
-  }
-  return shown;
-}
-
-[[noreturn]] void refuse(const std::string& source, const std::string& path, const std::string& value,
-                         const std::string& rule) {
-  const std::string where = path.empty() ? "(top level)" : printable(path, 200);
-  throw SceneError(source + ": " + where + " = " + printable(value, 80) + ": " + printable(rule, 300));
-}
-
-std::string dump(const Json& value) {
-  return value.dump(-1, ' ', true, Json::error_handler_t::replace);
-}
-
-std::string join(const std::string& path, const std::string& key) {
-  const std::string shown = printable(key, 60);
-  return path.empty() ? shown : path + "." + shown;
-}
-
-// Follows the parser so that an error inside the text can be named by its JSON path; refuses what no scene needs, and a
-// key given twice, of which a JSON parser would silently keep the last.
-class PathTracker {
- public:
-  explicit PathTracker(const std::string& source) : source_(source) {}
-
-  bool operator()(int /*depth*/, Json::parse_event_t event, const Json& parsed) {
-    using Event = Json::parse_event_t;
-    if (++values_ > max_values) refuse(source_, path(), "(too much)", "more values than a scene can have");
-    if (event == Event::object_start || event == Event::array_start) {
-      levels_.push_back({event == Event::array_start, {}, {}, 0});
-      if (levels_.size() > max_depth) refuse(source_, path(), "{...", "nested too deeply for a scene");
-    } else if (event == Event::key) {
-      Level& level = levels_.back();
-      level.key = parsed.get<std::string>();
-      if (level.keys.size() == max_keys)
-        refuse(source_, path(), dump(parsed), "more keys than an object here can have");
-      if (!level.keys.insert(level.key).second) refuse(source_, path(), dump(parsed), "the key is given twice");
-    } else {
-      if (event != Event::value) levels_.pop_back();
-      if (!levels_.empty() && levels_.back().is_array) ++levels_.back().index;
-    }
-    return true;
-  }
-
-  std::string path() const {
-    std::string text;
-    for (const Level& level : levels_) {
-      if (level.is_array) text += "[" + std::to_string(level.index) + "]";
-      else if (!level.key.empty()) text = join(text, level.key);
-    }
-    return text;
-  }
-
- private:
-  struct Level {
-    bool is_array;
-    std::set<std::string> keys;
-    std::string key;
-    int index;
-  };
-
-  const std::string& source_;
-  std::vector<Level> levels_;
-  int values_ = 0;  // beginnings, ends, keys and values
-};
 
 // A JSON value with its path, read key by key.
 class Node {
@@ -282,24 +199,6 @@ Scene read(const Node& node) {
   return scene;
 }
 
-Json parse(const std::string& text, const std::string& source) {
-  if (text.find('\0') != std::string::npos) {  // the parser would stop there and not see the rest
-    refuse(source, "", "(unreadable)", "not JSON: byte " + std::to_string(text.find('\0')) + " is zero");
-  }
-  PathTracker tracker(source);
-  try {
-    return Json::parse(text, std::ref(tracker));
-  } catch (const Json::parse_error& error) {
-    const std::string what = error.what();  // "[json.exception...] parse error at line 1, column 2: ..."
-    refuse(source, tracker.path(), "(unreadable)", "not JSON: " + what.substr(what.find("] ") + 2));
-  } catch (const Json::out_of_range& error) {
-    const std::string what = error.what();  // "... number overflow parsing '1e999'"
-    const std::size_t quote = what.find('\'');
-    const std::string number = quote == std::string::npos ? "?" : what.substr(quote + 1, what.rfind('\'') - quote - 1);
-    refuse(source, tracker.path(), number, "must be finite: the number does not fit a double");
-  }
-}
-
 }  // namespace
 
 Scene read_scene(std::istream& input, const std::string& source) {
@@ -323,92 +222,6 @@ Scene read_scene_file(const std::string& path) {
   if (!file || std::filesystem::is_directory(path))
     throw SceneError(path + ": (file) = (unreadable): must be a readable scene file");
   return read_scene(file, path);
-}
-
-namespace {
-
-template <class Vector>
-Json list(const Vector& values) {
-  Json array = Json::array();
-  for (int i = 0; i < values.size(); ++i) array.push_back(values[i]);
-  return array;
-}
-
-const char* name(Frame frame) {
-  return frame == Frame::follower ? "follower" : "fixed";
-}
-
-Json place(double at_mm, double length) {
-  return at_mm == length ? Json("tip") : Json(at_mm);
-}
-
-Json write(const Stiffness& stiffness) {
-  Json json{{"bending_Nmm2", list(stiffness.bending_Nmm2)}, {"torsion_Nmm2", stiffness.torsion_Nmm2}};
-  if (stiffness.axial_N) json["axial_N"] = *stiffness.axial_N;
-  if (stiffness.shear_N) json["shear_N"] = list(*stiffness.shear_N);
-  if (stiffness.mass_per_length_kg_per_m > 0) json["mass_per_length_kg_per_m"] = stiffness.mass_per_length_kg_per_m;
-  return json;
-}
-
-Json write(const Section& section) {
-  Json json{{"length_mm", section.length_mm}};
-  if (const auto* circle = std::get_if<CircularSection>(&section.cross_section)) {
-    json["geometry"] = {{"outer_diameter_mm", circle->outer_diameter_mm},
-                        {"inner_diameter_mm", circle->inner_diameter_mm}};
-    json["material"] = {{"youngs_modulus_MPa", circle->youngs_modulus_MPa}, {"poissons_ratio", circle->poissons_ratio}};
-    if (circle->density_kg_per_m3 > 0) json["material"]["density_kg_per_m3"] = circle->density_kg_per_m3;
-  } else {
-    json["stiffness"] = write(std::get<Stiffness>(section.cross_section));
-  }
-  if (!section.rest_curvature_per_mm.isZero(0)) json["rest_curvature_per_mm"] = list(section.rest_curvature_per_mm);
-  return json;
-}
-
-struct LoadWriter {
-  double length;
-
-  Json operator()(const Force& force) const {
-    Json json{{"kind", kind_name(force)},
-              {"at", place(force.at_mm, length)},
-              {"frame", name(force.frame)},
-              {"value_N", list(force.value_N)}};
-    if (!force.offset_mm.isZero(0)) json["offset_mm"] = list(force.offset_mm);
-    return json;
-  }
-  Json operator()(const Moment& moment) const {
-    return {{"kind", kind_name(moment)},
-            {"at", place(moment.at_mm, length)},
-            {"frame", name(moment.frame)},
-            {"value_Nmm", list(moment.value_Nmm)}};
-  }
-  Json operator()(const DistributedForce& force) const {
-    return {{"kind", kind_name(force)},
-            {"from_mm", force.from_mm},
-            {"to_mm", force.to_mm},
-            {"frame", name(force.frame)},
-            {"value_N_per_mm", list(force.value_N_per_mm)}};
-  }
-  Json operator()(const Gravity& gravity) const {
-    return {{"kind", kind_name(gravity)}, {"acceleration_m_per_s2", list(gravity.acceleration_m_per_s2)}};
-  }
-  Json operator()(const Tendon& tendon) const {
-    return {{"kind", kind_name(tendon)},
-            {"offset_mm", list(tendon.offset_mm)},
-            {"tension_N", tendon.tension_N},
-            {"to_mm", tendon.to_mm}};
-  }
-};
-
-}  // namespace
-
-std::string write_scene(const Scene& scene) {
-  Json json;
-  if (!scene.title.empty()) json["title"] = scene.title;
-  json["rod"]["sections"] = Json::array();
-  for (const Section& section : scene.sections) json["rod"]["sections"].push_back(write(section));
-  json["loads"] = Json::array();
-  for (const Load& load : scene.loads) json["loads"].push_back(std::visit(LoadWriter{length_mm(scene)}, load));
-  return json.dump(2) + "\n";
 }
 
 }  // namespace scene

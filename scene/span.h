@@ -2,6 +2,7 @@
 // Bookkeeping that every method needs and none owns; there is no mechanics in it.
 #pragma once
 
+#include "scene/reused.h"
 #include "scene/scene.h"
 
 #include <Eigen/Geometry>
@@ -37,6 +38,9 @@ struct Span {
 
   std::vector<SectionTendon> tendons;  // with different offsets, none slack
 
+  // Takes all loads off; the tendons' memory stays.
+  void unload();
+
   double length_mm() const { return end_mm - start_mm; }
   bool has_fixed_point_load() const { return !fixed_load_B.is_zero() || !fixed_force_arms_BS_Nmm.isZero(0); }
 };
@@ -51,8 +55,35 @@ Eigen::Matrix<T, 3, 1> moment_of_arms(const Eigen::Matrix<T, 3, 3>& A) {
 // for distributed loads and tendons, which visit each span they cover.
 std::vector<Span> spans_of(const Scene& scene);
 
+// The same again and again for scenes with the same sections and loads but other values and places, without taking
+// memory after reserve().
+class SpanCutter {
+ public:
+  // Memory for this scene, wherever its loads move; `scenes` of them cut together.
+  void reserve(const Scene& scene, std::size_t scenes = 1);
+  // At everything that is not smooth in any of the scenes, which differ in the values and places of their loads.
+  void cut(std::span<const Scene* const> scenes);
+  // The spans of one of them.
+  void fill(const Scene& scene, Reused<Span>& spans) const;
+  // Each span's section.
+  std::span<const std::size_t> sections() const { return section_of_span_; }
+  // Where spans end, the clamp first.
+  std::span<const double> cuts_mm() const { return cuts_; }
+  // The cut nearest to a place.
+  std::size_t nearest_cut(double place_mm) const;
+
+ private:
+  std::vector<double> section_ends_, places_, cuts_;
+  std::vector<std::size_t> section_of_span_;
+};
+
 // Shares `count` cells (arcs, elements) out over the spans, by length, at least one each, so that the sum is
-// max(count, number of spans).
+// max(count, number of spans). The second form keeps its memory in `shares`.
 std::vector<int> cells_per_span(std::span<const Span> spans, int count);
+struct CellShares {
+  std::vector<double> share;
+  std::vector<std::size_t> order;
+};
+void share_cells(std::span<const Span> spans, int count, std::vector<int>& cells, CellShares& shares);
 
 }  // namespace scene

@@ -148,6 +148,13 @@ std::optional<Eigen::Vector2d> plane_direction(std::span<const Span> spans) {
   return mirrored ? std::optional(direction) : std::nullopt;
 }
 
+bool needs_no_plane(std::span<const Span> spans) {
+  return lies_on_axis(spans) && std::all_of(spans.begin(), spans.end(), [](const Span& span) {
+           return std::all_of(span.tendons.begin(), span.tendons.end(),
+                              [](const SectionTendon& tendon) { return tendon.arm_S_mm.isZero(0); });
+         });
+}
+
 std::optional<Eigen::Vector3d> plane_normal(std::span<const Span> spans) {
   const std::optional<Eigen::Vector2d> direction = plane_direction(spans);
   return direction ? std::optional(normal_of(*direction)) : std::nullopt;
@@ -157,6 +164,11 @@ Symmetry symmetry_of(std::span<const Span> spans) {
   if (lies_on_axis(spans)) return Symmetry::axis;
   if (lies_in(spans, 2)) return Symmetry::plane_xy;
   return lies_in(spans, 1) ? Symmetry::plane_xz : Symmetry::none;
+}
+
+Symmetry common_symmetry(Symmetry a, Symmetry b) {
+  if (a == b || b == Symmetry::axis) return a;
+  return a == Symmetry::axis ? b : Symmetry::none;
 }
 
 bool is_conservative(std::span<const Span> spans) {

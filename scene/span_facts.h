@@ -16,6 +16,9 @@ bool all_loads_follow(std::span<const Span> spans);
 // shear stiffnesses, else the x-y or the x-z plane. Tendons lie in a plane if it mirrors them onto each other.
 std::optional<Eigen::Vector2d> plane_direction(std::span<const Span> spans);
 
+// Nothing of a planar rod lies off the axis: any plane does.
+bool needs_no_plane(std::span<const Span> spans);
+
 // The unit normal of that plane, about which such a rod turns.
 std::optional<Eigen::Vector3d> plane_normal(std::span<const Span> spans);
 
@@ -32,6 +35,8 @@ bool is_round(std::span<const Span> spans);
 // holds it there: on the axis, or in the plane as long as it would leave it sideways.
 enum class Symmetry { none, plane_xy, plane_xz, axis };
 Symmetry symmetry_of(std::span<const Span> spans);
+// What leaves both as they are.
+Symmetry common_symmetry(Symmetry a, Symmetry b);
 
 // The loads have an energy: fixed forces, gravity and tendons alone. Loads that cancel at a place do not count.
 bool is_conservative(std::span<const Span> spans);

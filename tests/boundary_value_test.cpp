@@ -1,11 +1,11 @@
 // Fixed, mixed, distributed loads and gravity: the boundary value problem over the arcs against the exact reference.
 #include "allocation_counter.h"
 #include "exact_reference/solve.h"
-#include "fam/dual.h"
-#include "fam/solve.h"
+#include "fam/boundary_value.h"
 #include "scene/scene_file.h"
 #include "scene/span_facts.h"
 #include "support.h"
+#include "support_fam.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -214,13 +214,11 @@ TEST(BoundaryValue, AStifferRodIsSeen) {
 TEST(BoundaryValue, OneSegmentSolvesWithoutAllocating) {
   fam::Options options;
   options.arcs = 12;
-  std::string reason;
-  auto solver = fam::prepare(tip_force(slender(750, 500), {0, 1, 0}), options, reason);
-  ASSERT_TRUE(solver) << reason;
+  fam::Solver solver = support::kept(tip_force(slender(750, 500), {0, 1, 0}), options);
   const std::size_t before = allocation_count();
-  EXPECT_EQ(fam::run_prepared(*solver), scene::Status::converged);
+  EXPECT_TRUE(solver.solve().converged());
   EXPECT_EQ(allocation_count(), before);
-  EXPECT_LT((fam::poses_of(*solver).back().position_B_mm - Vector3d(33.03110716, 20.47065732, 0)).norm(), 2e-4);
+  EXPECT_LT((solver.tip().position_B_mm - Vector3d(33.03110716, 20.47065732, 0)).norm(), 2e-4);
 }
 
 // Load growth with several segments: in the plane and in space, with a branch to watch, tendons and no energy.
@@ -240,17 +238,17 @@ std::vector<scene::Scene> scenes_with_load_growth() {
 TEST(BoundaryValue, LoadGrowthDoesNotAllocate) {
   for (const scene::Scene& scene : scenes_with_load_growth()) {
     const std::vector<scene::Span> spans = scene::spans_of(scene);
+    const fam::GrowingLoads loads(spans);
     const auto expect_none = [&](auto solver) {
+      solver.set(loads.way(), scene::cells_per_span(spans, 12), Law::sixth_order, fam::RodModel::kirchhoff);
       const std::size_t before = allocation_count();
       EXPECT_EQ(solver.run(), scene::Status::converged);
       EXPECT_EQ(allocation_count(), before);
       EXPECT_GT(solver.load_steps(), 1);
       EXPECT_GT(solver.segment_count(), 1);
     };
-    const std::vector<int> arcs = scene::cells_per_span(spans, 12);
-    expect_none(fam::BoundaryValue(spans, arcs, Law::sixth_order, fam::RodModel::kirchhoff));
-    if (scene::plane_direction(spans))
-      expect_none(fam::BasicBoundaryValue<2>(spans, arcs, Law::sixth_order, fam::RodModel::kirchhoff));
+    expect_none(fam::BoundaryValue());
+    if (scene::plane_direction(spans)) expect_none(fam::BasicBoundaryValue<2>());
   }
 }
 
@@ -259,7 +257,9 @@ TEST(BoundaryValue, NewtonStepsAreThoseOfOneRun) {
   scenes.push_back(tip_force(slender(750, 500), {0, 0.5, 0}));  // at once, by few arcs first
   for (const scene::Scene& scene : scenes) {
     const std::vector<scene::Span> spans = scene::spans_of(scene);
-    fam::BoundaryValue solver(spans, scene::cells_per_span(spans, 64), Law::sixth_order, fam::RodModel::kirchhoff);
+    const fam::GrowingLoads loads(spans);
+    fam::BoundaryValue solver;
+    solver.set(loads.way(), scene::cells_per_span(spans, 64), Law::sixth_order, fam::RodModel::kirchhoff);
     EXPECT_EQ(solver.run(), scene::Status::converged);
     const int once = solver.newton_steps();
     EXPECT_EQ(solver.run(), scene::Status::converged);
@@ -267,15 +267,12 @@ TEST(BoundaryValue, NewtonStepsAreThoseOfOneRun) {
   }
 }
 
-// A prepared solver ends as solve() does with as many arcs: arcs too long for their series, a tendon without length.
-TEST(BoundaryValue, PreparedSolversRefuseWhatSolveRefuses) {
+// A kept solver ends as solve() does with as many arcs: arcs too long for their series, a tendon without length.
+TEST(BoundaryValue, KeptSolversRefuseWhatSolveRefuses) {
   const auto statuses = [](const scene::Scene& scene, int arcs) {
     fam::Options options;
     options.arcs = arcs;
-    std::string reason;
-    auto solver = fam::prepare(scene, options, reason);
-    EXPECT_TRUE(solver) << reason;
-    return std::pair{fam::run_prepared(*solver), fam::solve(scene, options).status};
+    return std::pair{support::kept(scene, options).solve().status, fam::solve(scene, options).status};
   };
   using enum scene::Status;
   for (const Frame frame : {Frame::follower, Frame::fixed}) {
@@ -310,47 +307,6 @@ TEST(BoundaryValue, ManyLoads) {
   const scene::Equilibrium result = solved(many, 1e-6);
   EXPECT_LT(distance_mm(result, exact_reference::solve(many)), 1e-6);
   EXPECT_LT(distance_mm(result, solved(even, 1e-6)), 0.05);
-}
-
-// Against Eigen's dense LU; with a zero on the diagonal, so that rows must change places.
-TEST(BandSystem, SolvesAndTellsTheSignOfTheDeterminant) {
-  std::mt19937 generator(3);
-  std::normal_distribution<double> normal;
-  for (const int size : {1, 4, 9, 40}) {
-    fam::BandSystem<4, 6> system;
-    system.resize(size);
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
-    Eigen::VectorXd right(size);
-    system.set_zero();
-    for (int i = 0; i < size; ++i) {
-      for (int j = std::max(0, i - 4); j <= std::min(size - 1, i + 6); ++j) {
-        matrix(i, j) = system(i, j) = i == j && i > 0 && i % 3 == 0 ? 0 : normal(generator);
-      }
-      right[i] = system.right()[i] = normal(generator);
-    }
-    const Eigen::PartialPivLU<Eigen::MatrixXd> dense(matrix);
-    ASSERT_TRUE(system.solve());
-    EXPECT_LT((system.right() - dense.solve(right)).norm(), 1e-10 * dense.solve(right).norm()) << size;
-    EXPECT_EQ(system.determinant_is_negative(), dense.determinant() < 0) << size;
-  }
-  fam::BandSystem<4, 6> singular;
-  singular.resize(2);
-  EXPECT_FALSE(singular.solve());
-}
-
-// Sine, root and quotient against central differences.
-TEST(Dual, Derivatives) {
-  const auto f = [](auto x, auto y) {
-    using std::sin;
-    using std::sqrt;
-    return sin(x) * sqrt(y) / (1 + x * y) - y;
-  };
-  const fam::Dual<2> x(0.7, {1, 0}), y(1.9, {0, 1});
-  const fam::Dual<2> value = f(x, y);
-  const double h = 1e-6;
-  EXPECT_NEAR(value.value, f(0.7, 1.9), 1e-16);
-  EXPECT_NEAR(value.slope[0], (f(0.7 + h, 1.9) - f(0.7 - h, 1.9)) / (2 * h), 1e-9);
-  EXPECT_NEAR(value.slope[1], (f(0.7, 1.9 + h) - f(0.7, 1.9 - h)) / (2 * h), 1e-9);
 }
 
 }  // namespace

@@ -171,3 +171,12 @@ TEST(ExactReference, RefusesAndReports) {
   EXPECT_GE(result.stations.size(), 41u);
   EXPECT_EQ(result.model[0].first, "solver");
 }
+
+TEST(ExactReference, FixedMomentsLeaveStabilityOpen) {  // no energy: nothing is claimed, in the plane neither
+  const scene::Scene rod = tip_force(uniform_rod(40, 750, 500), Frame::fixed, {0.1, 0.2, 0});
+  EXPECT_EQ(solve(rod).stable, true);
+  EXPECT_FALSE(solve(tip_moment(rod, Frame::fixed, {0, 0, 10})).stable.has_value());
+  EXPECT_FALSE(solve(tip_moment(rod, Frame::fixed, {3, 1, 0})).stable.has_value());
+  EXPECT_FALSE(solve(tip_force(rod, Frame::follower, {0, 0.1, 0})).stable.has_value());
+  EXPECT_EQ(solve(uniform_rod(40, 750, 500)).stable, true);
+}

@@ -1,6 +1,6 @@
 // What the stations say, against the loads: balance of force and moment at every one of them, from the returned shape
 // alone; where they stand; and the error estimate against the error of each.
-#include "fem_benchmark.h"
+#include "fem_beam.h"
 #include "scene/span.h"
 
 #include <gtest/gtest.h>
@@ -13,6 +13,7 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using fem_beam::two_sections;
 using fem_benchmark::bare;
 using fem_benchmark::solved;
 using scene::DistributedForce;
@@ -157,20 +158,6 @@ struct Balanced {
   double force_N = 1e-11;
   double moment_Nmm = 1e-10;
 };
-
-scene::Scene two_sections(std::vector<scene::Load> loads) {
-  scene::Stiffness proximal = slender(800, 600);
-  proximal.bending_Nmm2[1] = 1200;
-  proximal.axial_N = 400;
-  proximal.shear_N = Vector2d(120, 90);
-  proximal.mass_per_length_kg_per_m = 0.5;
-  scene::Stiffness distal = slender(300, 200);
-  distal.mass_per_length_kg_per_m = 0.2;
-  scene::Scene scene;
-  scene.sections = {{25, proximal, Vector3d::Zero()}, {15, distal, Vector3d(0.01, -0.02, 0.03)}};
-  scene.loads = std::move(loads);
-  return scene;
-}
 
 std::vector<Balanced> balanced_scenes() {
   const Force fixed{40, Frame::fixed, {-0.2, 0.5, 0.3}}, offset{33, Frame::fixed, {0.3, -0.2, 0.4}, {2, -1}};

@@ -16,7 +16,7 @@ using nlohmann::json;
 #ifdef __SANITIZE_ADDRESS__
 constexpr double most_s = 100;
 #else
-constexpr double most_s = 60;
+constexpr double most_s = 20;
 #endif
 
 double processor_s_of_children() {

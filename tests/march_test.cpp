@@ -1,7 +1,7 @@
 // The march: check values, orders, invariances, memory.
 #include "allocation_counter.h"
-#include "fam/solve.h"
 #include "support.h"
+#include "support_fam.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -232,18 +232,15 @@ TEST(March, SolvesWithoutAllocating) {
   for (const Law law : fam::all_laws()) {
     for (const RodModel model : {RodModel::kirchhoff, RodModel::reissner}) {
       if (law == Law::published && model == RodModel::reissner) continue;
-      std::string reason;
-      auto march = fam::prepare(support::study1_scene("S4", "follower"), with(law, 500, model), reason);
-      ASSERT_TRUE(march) << reason;
+      fam::Solver solver = support::kept(support::study1_scene("S4", "follower"), with(law, 500, model));
       const std::size_t before = allocation_count();
-      EXPECT_EQ(fam::run_prepared(*march), scene::Status::converged);
+      EXPECT_TRUE(solver.solve().converged());
       EXPECT_EQ(allocation_count(), before) << fam::name(law);
     }
   }
-  // The twin: preparing does allocate, so the counter counts.
+  // The twin: making does allocate, so the counter counts.
   const std::size_t before = allocation_count();
-  std::string reason;
-  fam::prepare(check_rod(), with(Law::midpoint, 500), reason);
+  support::kept(check_rod(), with(Law::midpoint, 500));
   EXPECT_GT(allocation_count(), before);
 }
 

@@ -2,10 +2,10 @@
 // ablation's law without weakness is the library's.
 #include "exact_reference/elastica.h"
 #include "exact_reference/solve.h"
-#include "fam/solve.h"
+
 #include "studies/segmentation/ablation.h"
 #include "support.h"
-
+#include "support_fam.h"
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,10 +28,9 @@ fam::Options with(Law law, int arcs) {
 }
 
 Vector3d tip_mm(const scene::Scene& scene, const fam::Options& options) {
-  std::string reason;
-  fam::Prepared march = fam::prepare(scene, options, reason).value();
-  if (fam::run_prepared(march) != scene::Status::converged) return Vector3d::Constant(NAN);
-  return fam::poses_of(march).back().position_B_mm;
+  fam::Solver solver = support::kept(scene, options);
+  solver.solve();
+  return solver.tip().position_B_mm;
 }
 
 // P4's tip error over L; the closed form is good to 1e-13 L.

@@ -35,7 +35,7 @@ const BenchmarkFamily& family_of(const Benchmark& benchmark, const std::string& 
 }
 
 double size_of(const scene::Load& load) {
-  if (const auto* force = as<scene::Force>(load)) return force->value_N.norm();
+  if (const auto* force = known_load<scene::Force>(load)) return force->value_N.norm();
   return std::get<scene::DistributedForce>(load).value_N_per_mm.norm();
 }
 

@@ -7,6 +7,7 @@
 #include "studies/report/table.h"
 #include "studies/scenes/cases.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -94,12 +95,12 @@ Benchmark elastica(const StudyOptions& options) {
         benchmark_point(b.sources[1], "tip", "F L²/EI = " + fixed(alpha, 1), alpha,
                         {shifted(printed(row.at("minus_U_pub")), -1), shifted(printed(row.at("W_pub")), -1)}));
   }
-  for (const DataRow& row : data_rows(options.data / "01_cantilever_dead_tip_load_elliptic.csv")) {
-    const double alpha = std::stod(row.at("alpha"));
-    if (alpha != 0.1 && alpha != 1 && alpha != 5 && alpha != 10 && alpha != 25 && alpha != 100) continue;
-    b.points.push_back(benchmark_point(b.sources[2], "tip", "F L²/EI = " + row.at("alpha"), alpha,
-                                       {printed(row.at("u_over_L")), printed(row.at("w_over_L"))}));
-  }
+  add_points(b, b.sources[2], "tip", options,
+             {"01_cantilever_dead_tip_load_elliptic.csv",
+              "alpha",
+              "F L²/EI",
+              {0.1, 1, 5, 10, 25, 100},
+              {"u_over_L", "w_over_L"}});
   return b;
 }
 
@@ -156,12 +157,9 @@ Benchmark follower(const StudyOptions& options) {
       {"axial", "P, kN", at, axial}, {"transverse", "P, kN", at, transverse}, {"tip", "P L²/EI", at_beta, unit_tip}};
   add_simo(b, options);
   add_argyris(b, options, at);
-  for (const DataRow& row : data_rows(options.data / "05_follower_tip_force_reference.csv")) {
-    const double beta = std::stod(row.at("beta"));
-    if (beta != 1 && beta != 4 && beta != 10 && beta != 20 && beta != 30 && beta != 40) continue;
-    b.points.push_back(benchmark_point(b.sources[2], "tip", "P L²/EI = " + row.at("beta"), beta,
-                                       {printed(row.at("x_over_L")), printed(row.at("y_over_L"))}));
-  }
+  add_points(
+      b, b.sources[2], "tip", options,
+      {"05_follower_tip_force_reference.csv", "beta", "P L²/EI", {1, 4, 10, 20, 30, 40}, {"x_over_L", "y_over_L"}});
   return b;
 }
 
@@ -200,12 +198,8 @@ Benchmark heavy(const StudyOptions& options) {
   const scene::Scene turning = benchmark_scene(options, "distributed_follower");
   b.families = {{"fixed", "q L³/EI", [=](double g) { return scaled(weight, g / 25); }, tip_xy},
                 {"follower", "q L³/EI", [=](double g) { return scaled(turning, g / 25); }, tip_xy}};
-  for (const DataRow& row : data_rows(options.data / "08_heavy_elastica_reference.csv")) {
-    const double g = std::stod(row.at("g"));
-    if (g != 1 && g != 5 && g != 10 && g != 25 && g != 100 && g != 1000) continue;
-    b.points.push_back(benchmark_point(b.sources[0], "fixed", "q L³/EI = " + row.at("g"), g,
-                                       {printed(row.at("x_over_L")), printed(row.at("y_over_L"))}));
-  }
+  add_points(b, b.sources[0], "fixed", options,
+             {"08_heavy_elastica_reference.csv", "g", "q L³/EI", {1, 5, 10, 25, 100, 1000}, {"x_over_L", "y_over_L"}});
   for (const DataRow& row : data_rows(options.data / "08_pyelastica_distributed_published.csv")) {
     const bool fixed_load = row.at("type") == "conservative";
     b.points.push_back(benchmark_point(b.sources[fixed_load ? 1 : 2], fixed_load ? "fixed" : "follower",
@@ -229,6 +223,18 @@ scene::Scene benchmark_scene(const StudyOptions& options, const std::string& nam
 BenchmarkPoint benchmark_point(const BenchmarkSource& source, const std::string& family, const std::string& label,
                                double parameter, const std::vector<Printed>& published, double scale) {
   return {source.key, family, label, parameter, published, scale == 0 ? norm(published) : scale, source.digits};
+}
+
+void add_points(Benchmark& benchmark, const BenchmarkSource& source, const std::string& family,
+                const StudyOptions& options, const ChosenRows& chosen) {
+  for (const DataRow& row : data_rows(options.data / chosen.file)) {
+    const std::string& value = row.at(chosen.parameter);
+    if (std::ranges::count(chosen.values, std::stod(value)) == 0) continue;
+    std::vector<Printed> published;
+    for (const std::string& column : chosen.published) published.push_back(printed(row.at(column)));
+    benchmark.points.push_back(
+        benchmark_point(source, family, chosen.name + " = " + value, std::stod(value), published));
+  }
 }
 
 std::vector<Benchmark> planar_benchmarks(const StudyOptions& options) {

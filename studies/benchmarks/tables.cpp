@@ -2,6 +2,7 @@
 
 #include "studies/report/provenance.h"
 #include "studies/report/table.h"
+#include "studies/timing_cells.h"
 
 #include <fmt/format.h>
 
@@ -133,14 +134,13 @@ std::string benchmark_overview_csv(const std::vector<BenchmarkResult>& results) 
 }
 
 std::string benchmark_timing_csv(const std::vector<BenchmarkResult>& results) {
-  Table table({"benchmark", "point", "method", "median_us", "lower_quartile_us", "upper_quartile_us", "repeats"});
+  Table table(with_timing_columns({"benchmark", "point", "method"}));
   for (const BenchmarkResult& result : results) {
     const auto& [family, parameter] = result.benchmark.timed;
     for (std::size_t m = 0; m < result.times.size(); ++m) {
-      const Timing& t = result.times[m];
-      table.add({result.benchmark.key, fmt::format("{} {:g}", family, parameter), benchmark_methods()[m].column,
-                 fixed(t.median_us, 3), t.has_spread() ? fixed(t.lower_quartile_us, 3) : "",
-                 t.has_spread() ? fixed(t.upper_quartile_us, 3) : "", std::to_string(t.repeats)});
+      table.add(
+          with_timing({result.benchmark.key, fmt::format("{} {:g}", family, parameter), benchmark_methods()[m].column},
+                      result.times[m], fixed, 3));
     }
   }
   return table.csv({machine_line(),

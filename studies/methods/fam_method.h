@@ -1,7 +1,7 @@
 // The finite arc method as a competitor. All in this header: the command fam uses it without the studies.
 #pragma once
 
-#include "fam/solve.h"
+#include "fam/solver.h"
 #include "studies/methods/method.h"
 
 namespace studies {
@@ -19,10 +19,11 @@ class FamMethod : public Method {
 
   std::function<void()> bare_solve(const scene::Scene& scene) const override {
     if (options_.arcs == 0) return [scene, options = options_for(scene)] { fam::solve(scene, options); };
-    std::string reason;
-    std::optional<fam::Prepared> solver = fam::prepare(scene, options_, reason);
-    if (!solver) return [] {};
-    return [shared = std::make_shared<fam::Prepared>(std::move(*solver))] { fam::run_prepared(*shared); };
+    auto made = fam::Solver::make(scene, options_);
+    if (std::holds_alternative<fam::Refusal>(made)) return [] {};
+    return [solver = std::make_shared<fam::Solver>(std::get<fam::Solver>(std::move(made)))] {
+      solver->solve(fam::Solver::Start::unloaded);
+    };
   }
 
  private:
@@ -36,7 +37,7 @@ class FamMethod : public Method {
   double tolerance_over_L_;
 };
 
-// With a fixed number of arcs the bare solve is the march; with a tolerance it is all of fam::solve, choice included.
+// With a fixed number of arcs the bare solve is that of a kept solver; with a tolerance it is all of fam::solve, choice included.
 // tolerance_over_L > 0: in place of options.tolerance_mm, for each scene its own length's.
 inline std::unique_ptr<Method> fam_method(const fam::Options& options, double tolerance_over_L = 0) {
   return std::make_unique<FamMethod>(options, tolerance_over_L);

@@ -17,13 +17,10 @@ std::vector<std::string> study1_cases();
 std::vector<std::string> study1_cases(bool planar);
 bool is_planar(const std::string& load_case);
 
-// The load as this kind, or null: of a case file, whose loads the study knows.
-template <class Kind>
-const Kind* as(const scene::Load& load) {
-  return std::get_if<Kind>(&load);
-}
-template <class Kind>
-Kind* as(scene::Load& load) {
+// The load of a case file as this kind, null if it is of another: a study knows which kinds its own files hold. Only
+// the studies that tests/load_kind names ask so; all else answers for every kind (scene/load_visitor.h).
+template <class Kind, class AnyLoad>
+auto* known_load(AnyLoad& load) {
   return std::get_if<Kind>(&load);
 }
 

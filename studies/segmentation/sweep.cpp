@@ -1,6 +1,7 @@
 #include "studies/segmentation/sweep.h"
 
-#include "fam/solve.h"
+#include "fam/march.h"
+#include "fam/solver.h"
 #include "studies/report/table.h"
 #include "studies/scenes/cases.h"
 
@@ -20,22 +21,20 @@ using Eigen::Vector3d;
 using exact_reference::Elastica;
 using exact_reference::PlanarCantilever;
 
-// The march alone: it answers, too, where fam::solve would refuse the arcs as too long.
-fam::Prepared ready_march(const scene::Scene& scene, const SweepLaw& law, int arcs) {
+fam::Solver kept_solver(const scene::Scene& scene, const SweepLaw& law, int arcs) {
   fam::Options options;
   options.law = law.law;
   options.model = law.model;
   options.arcs = arcs;
   options.estimate_error = false;
-  std::string reason;
-  return fam::prepare(scene, options, reason).value();
+  return std::get<fam::Solver>(fam::Solver::make(scene, options));
 }
 
-// Empty where an arc's angle was not found.
+// Empty where an arc's angle was not found, or its series does not reach its end.
 std::optional<Vector3d> marched_tip_mm(const scene::Scene& scene, const SweepLaw& law, int arcs) {
-  fam::Prepared march = ready_march(scene, law, arcs);
-  if (fam::run_prepared(march) != scene::Status::converged) return {};
-  return fam::poses_of(march).back().position_B_mm;
+  fam::Solver solver = kept_solver(scene, law, arcs);
+  if (!solver.solve().converged()) return {};
+  return solver.tip().position_B_mm;
 }
 
 Vector3d in_space(const exact_reference::PlanarPose& pose) {
@@ -143,8 +142,8 @@ Budget budget(const scene::Scene& p4, const std::string& load, const SweepLaw& l
 PlanarCantilever cantilever_of(const scene::Scene& scene) {
   PlanarCantilever rod{scene::length_mm(scene), scene::stiffness_of(scene.sections[0]).bending_Nmm2[1]};
   for (const scene::Load& load : scene.loads) {
-    if (const auto* force = as<scene::Force>(load)) rod.tip_force_N += force->value_N.head<2>();
-    if (const auto* moment = as<scene::Moment>(load)) rod.tip_moment_Nmm += moment->value_Nmm[2];
+    if (const auto* force = known_load<scene::Force>(load)) rod.tip_force_N += force->value_N.head<2>();
+    if (const auto* moment = known_load<scene::Moment>(load)) rod.tip_moment_Nmm += moment->value_Nmm[2];
   }
   return rod;
 }
@@ -198,16 +197,16 @@ void find_budgets(const scene::Scene& p4, SegmentationData& data) {
 
 void draw_shapes(const scene::Scene& p4, SegmentationData& data) {
   for (const int arcs : {1, 2, 3, 12, 500}) {
-    fam::Prepared march = ready_march(p4, sweep_law("published"), arcs);
-    if (fam::run_prepared(march) != scene::Status::converged) continue;
-    const std::vector<fam::Arc> solved = fam::arcs_of(march);
-    const std::vector<fam::SectionPose> poses = fam::poses_of(march);
+    const std::vector<scene::Span> spans = scene::spans_of(p4);
+    fam::March march;
+    march.set(spans, scene::cells_per_span(spans, arcs), fam::Law::published, scene::RodModel::kirchhoff);
+    if (march.run() != scene::Status::converged) continue;
     SweepShape shape{counted(arcs, "arc"), {}};
     for (int i = 0; i <= 48; ++i) {
       const int arc = std::min(arcs - 1, i * arcs / 48);
       const auto index = static_cast<std::size_t>(arc);
       const double fraction = static_cast<double>(i) * arcs / 48 - arc;
-      shape.positions_mm.push_back(fam::pose_on(solved[index], poses[index], fraction).position_B_mm);
+      shape.positions_mm.push_back(fam::pose_on(march.arcs()[index], march.poses()[index], fraction).position_B_mm);
     }
     data.shapes.push_back(std::move(shape));
   }

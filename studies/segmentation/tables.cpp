@@ -1,6 +1,7 @@
 #include "studies/report/provenance.h"
 #include "studies/report/table.h"
 #include "studies/segmentation/data.h"
+#include "studies/timing_cells.h"
 
 #include <fmt/format.h>
 
@@ -72,12 +73,9 @@ std::string shapes_csv(const SegmentationData& data) {
 }
 
 std::string timing_csv(const SegmentationData& data) {
-  Table table({"case", "law", "arcs", "median_us", "lower_quartile_us", "upper_quartile_us", "repeats"});
+  Table table(with_timing_columns({"case", "law", "arcs"}));
   for (const SweepTime& t : data.times) {
-    const bool spread = t.timing.has_spread();
-    table.add({t.load_case, t.law, t.arcs ? std::to_string(t.arcs) : "", significant(t.timing.median_us, 4),
-               spread ? significant(t.timing.lower_quartile_us, 4) : "",
-               spread ? significant(t.timing.upper_quartile_us, 4) : "", std::to_string(t.timing.repeats)});
+    table.add(with_timing({t.load_case, t.law, t.arcs ? std::to_string(t.arcs) : ""}, t.timing, significant, 4));
   }
   return table.csv({machine_line(),
                     "The march from tip to clamp and the poses of all arc ends, warm. fam: all of fam::solve, the "

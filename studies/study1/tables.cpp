@@ -4,6 +4,7 @@
 #include "studies/report/table.h"
 #include "studies/study1/page.h"
 #include "studies/study1/printed.h"
+#include "studies/timing_cells.h"
 
 #include <fmt/format.h>
 
@@ -101,11 +102,9 @@ std::string printed_csv() {
 }
 
 std::string timing_csv(const Study1Data& data) {
-  Table table({"case", "frame", "method", "median_us", "lower_quartile_us", "upper_quartile_us", "repeats"});
+  Table table(with_timing_columns({"case", "frame", "method"}));
   for (const Study1Time& t : data.times) {
-    const auto quartile = [&](double us) { return t.timing.has_spread() ? fixed(us, 3) : std::string(); };
-    table.add({t.load_case, t.frame, t.method, fixed(t.timing.median_us, 3), quartile(t.timing.lower_quartile_us),
-               quartile(t.timing.upper_quartile_us), std::to_string(t.timing.repeats)});
+    table.add(with_timing({t.load_case, t.frame, t.method}, t.timing, fixed, 3));
   }
   return table.csv(
       {machine_line(), "Warm. fam: all of the solve; fam_*: the bare kernel; fe*, exact*: all but reading."});

@@ -19,7 +19,7 @@ constexpr double printed_mean_mm = 1.41, printed_sd_mm = 1.47, printed_largest_m
 
 constexpr double blood_kg_per_m3 = 1060;  // assumed
 
-std::string mm_text(double error_mm) {
+std::string error_text_mm(double error_mm) {
   return for_reader(scientific(error_mm, 1));
 }
 
@@ -43,9 +43,9 @@ std::string time_of_method(const Study2Data& data, const std::string& method) {
 
 void set_answer(Page& page, const Study2Data& data) {
   page.set("deflection", fixed(deflection_mm(data), 1));
-  page.set("published", mm_text(error_of(data, "fam_published_12")));
-  page.set("fam_error", mm_text(error_of(data, "fam")));
-  page.set("kirchhoff", mm_text(error_of(data, "exact_kirchhoff")));
+  page.set("published", error_text_mm(error_of(data, "fam_published_12")));
+  page.set("fam_error", error_text_mm(error_of(data, "fam")));
+  page.set("kirchhoff", error_text_mm(error_of(data, "exact_kirchhoff")));
   page.set_time("fam_time", time_of_method(data, "fam"));
   page.set_time("fe_time", time_of_method(data, "fe"));
   page.set("printed_mean", fixed(printed_mean_mm, 2));
@@ -64,7 +64,7 @@ void set_answer(Page& page, const Study2Data& data) {
 double weight_N(const scene::Scene& scene) {
   double weight = 0;
   for (const scene::Load& load : scene.loads) {
-    const auto* gravity = as<scene::Gravity>(load);
+    const auto* gravity = known_load<scene::Gravity>(load);
     if (!gravity) continue;
     for (const scene::Section& s : scene.sections) {
       weight += 1e-3 * s.length_mm * stiffness_of(s).mass_per_length_kg_per_m * gravity->acceleration_m_per_s2.norm();
@@ -81,7 +81,7 @@ double density_kg_per_m3(const scene::Scene& scene) {
 void set_weight(Page& page, const Study2Data& data) {
   double forces_N = 0;
   for (const scene::Load& load : data.forces_alone.loads) {
-    if (const auto* force = as<scene::Force>(load)) forces_N += force->value_N.norm();
+    if (const auto* force = known_load<scene::Force>(load)) forces_N += force->value_N.norm();
   }
   const Study2Row& plain = row(data, "study2", "exact");
   double least = INFINITY;
@@ -102,7 +102,7 @@ void set_weight(Page& page, const Study2Data& data) {
 std::string forces_text(const scene::Scene& scene) {
   std::vector<std::string> texts;
   for (const scene::Load& load : scene.loads) {
-    const auto* force = as<scene::Force>(load);
+    const auto* force = known_load<scene::Force>(load);
     if (!force) continue;
     const auto& f = force->value_N;
     texts.push_back(for_reader(fmt::format("({:.3g}, {:.3g}, {:.3g}) N at {:g} mm", f[0], f[1], f[2], force->at_mm)));
@@ -137,8 +137,8 @@ std::string catheter(const Study2Data& data) {
   return fmt::format(
       "of 504 mm, bent by {} mm: `fam solve` is within {} mm of the exact rod in {}, FAM published, 12 arcs, "
       "within {} mm; FE takes {}",
-      fixed(deflection_mm(data), 1), mm_text(error_of(data, "fam")), timed(time_of_method(data, "fam")),
-      mm_text(published_mm), timed(time_of_method(data, "fe")));
+      fixed(deflection_mm(data), 1), error_text_mm(error_of(data, "fam")), timed(time_of_method(data, "fam")),
+      error_text_mm(published_mm), timed(time_of_method(data, "fe")));
 }
 
 std::string model(const Study2Data& data) {
@@ -146,8 +146,8 @@ std::string model(const Study2Data& data) {
   for (const std::string& scene : study2_scenes) {
     most = std::max(most, largest_error_mm(row(data, scene, "exact_kirchhoff")));
   }
-  return fmt::format("on a catheter of 504 × 2.14 mm they move no place by more than {} mm in {} scenes", mm_text(most),
-                     study2_scenes.size());
+  return fmt::format("on a catheter of 504 × 2.14 mm they move no place by more than {} mm in {} scenes",
+                     error_text_mm(most), study2_scenes.size());
 }
 
 }  // namespace

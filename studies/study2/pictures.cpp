@@ -44,7 +44,7 @@ Axis deflection_axis(const Study2Data& data) {
 void draw_forces(Svg& svg, Panel& panel, const Study2Data& data, const Axis& axis) {
   const Study2Row& exact = row(data, "study2", "exact");
   for (const scene::Load& load : data.forces_alone.loads) {
-    const auto* force = as<scene::Force>(load);
+    const auto* force = known_load<scene::Force>(load);
     if (!force || exact.s_mm.empty()) continue;
     std::size_t i = 0;
     while (i + 1 < exact.s_mm.size() && exact.s_mm[i] < force->at_mm - 1e-6) ++i;

@@ -22,7 +22,7 @@ bool has_station(const scene::Equilibrium& result, double s_mm) {
 // section at its place, read off a solution. The forces stand at stations of the solution.
 scene::Scene in_section_frames(scene::Scene scene, const scene::Equilibrium& solution) {
   for (scene::Load& load : scene.loads) {
-    auto* force = as<scene::Force>(load);
+    auto* force = known_load<scene::Force>(load);
     if (!force) continue;
     for (const scene::Station& station : solution.stations) {
       if (std::abs(station.s_mm - force->at_mm) > 1e-9 * force->at_mm) continue;

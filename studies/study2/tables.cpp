@@ -2,6 +2,7 @@
 #include "studies/report/provenance.h"
 #include "studies/report/table.h"
 #include "studies/study2/page.h"
+#include "studies/timing_cells.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +14,7 @@ const std::string ours = "Forces of our own (studies/cases/study2/study2*.json);
 // Smaller errors do not matter on half a metre of catheter and are not told apart but in errors_along.csv.
 constexpr double told_mm = 1e-5;
 
-std::string mm_text(double error_mm) {
+std::string told_text_mm(double error_mm) {
   return error_mm < told_mm ? "< 1e-5" : scientific(error_mm, 1);
 }
 
@@ -45,7 +46,7 @@ std::string errors_csv(const Study2Data& data) {
       table.add({r.scene, r.method, r.status, "", "", ""});
       continue;
     }
-    table.add({r.scene, r.method, r.status, mm_text(r.errors_mm.back()), mm_text(largest_error_mm(r)),
+    table.add({r.scene, r.method, r.status, told_text_mm(r.errors_mm.back()), told_error(largest_error_mm(r)),
                fixed(largest_deflection_mm(r), 4)});
   }
   return table.csv(
@@ -54,12 +55,9 @@ std::string errors_csv(const Study2Data& data) {
 }
 
 std::string timing_csv(const Study2Data& data) {
-  Table table({"scene", "method", "median_us", "lower_quartile_us", "upper_quartile_us", "repeats"});
+  Table table(with_timing_columns({"scene", "method"}));
   for (const Study2Row& r : data.rows) {
-    if (r.s_mm.empty()) continue;
-    const auto quartile = [&](double us) { return r.timing.has_spread() ? fixed(us, 2) : std::string(); };
-    table.add({r.scene, r.method, fixed(r.timing.median_us, 2), quartile(r.timing.lower_quartile_us),
-               quartile(r.timing.upper_quartile_us), std::to_string(r.timing.repeats)});
+    if (!r.s_mm.empty()) table.add(with_timing({r.scene, r.method}, r.timing, fixed, 2));
   }
   return table.csv({machine_line()});
 }
@@ -82,7 +80,7 @@ std::string errors_table(const Study2Data& data) {
     std::vector<std::string> cells{study2_label(method)};
     for (const std::string& scene : study2_scenes) {
       const Study2Row& r = row(data, scene, method);
-      cells.push_back(r.s_mm.empty() ? r.status : mm_text(largest_error_mm(r)));
+      cells.push_back(r.s_mm.empty() ? r.status : told_text_mm(largest_error_mm(r)));
     }
     table.add(cells);
   }

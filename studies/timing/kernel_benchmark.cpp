@@ -40,7 +40,8 @@ void march(const std::string& what, const std::string& case_name, Law law, RodMo
   benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
     const std::vector<scene::Span> spans = spans_of(case_name);
     const std::vector<int> counts = scene::cells_per_span(spans, arcs);
-    fam::BasicMarch<D> solver(spans, counts, law, model, fam::TwistOrder::bend_twist);
+    fam::BasicMarch<D> solver;
+    solver.set(spans, counts, law, model);
     while (state.KeepRunning()) {
       if (solver.run() != scene::Status::converged) state.SkipWithError("not converged");
     }
@@ -52,8 +53,9 @@ void boundary_value(const std::string& case_name, int arcs) {
   const std::string name = "boundary_value/" + case_name + "/" + kernel<D>() + "/" + std::to_string(arcs);
   benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
     const std::vector<scene::Span> spans = spans_of(case_name);
-    const std::vector<int> counts = scene::cells_per_span(spans, arcs);
-    fam::BasicBoundaryValue<D> solver(spans, counts, Law::sixth_order, RodModel::kirchhoff);
+    const fam::GrowingLoads loads(spans);
+    fam::BasicBoundaryValue<D> solver;
+    solver.set(loads.way(), scene::cells_per_span(spans, arcs), Law::sixth_order, RodModel::kirchhoff);
     while (state.KeepRunning()) {
       if (solver.run() != scene::Status::converged) state.SkipWithError("not converged");
     }

@@ -1,5 +1,6 @@
 #include "studies/report/provenance.h"
 #include "studies/report/table.h"
+#include "studies/timing_cells.h"
 #include "studies/torsion/data.h"
 
 #include <fmt/format.h>
@@ -59,12 +60,9 @@ std::string arcs_csv(const TorsionData& data) {
 }
 
 std::string timing_csv(const TorsionData& data) {
-  Table table({"scene", "law", "arcs", "median_us", "lower_quartile_us", "upper_quartile_us", "repeats"});
+  Table table(with_timing_columns({"scene", "law", "arcs"}));
   for (const TorsionTime& t : data.times) {
-    const bool spread = t.timing.has_spread();
-    table.add({t.scene, t.law, t.arcs ? std::to_string(t.arcs) : "", significant(t.timing.median_us, 4),
-               spread ? significant(t.timing.lower_quartile_us, 4) : "",
-               spread ? significant(t.timing.upper_quartile_us, 4) : "", std::to_string(t.timing.repeats)});
+    table.add(with_timing({t.scene, t.law, t.arcs ? std::to_string(t.arcs) : ""}, t.timing, significant, 4));
   }
   return table.csv(
       {machine_line(),

@@ -39,8 +39,8 @@ TorsionRod rod_of(const scene::Scene& s1) {
   TorsionRod rod{scene::length_mm(s1), stiffness.bending_Nmm2[1], stiffness.torsion_Nmm2,
                  std::get<scene::CircularSection>(s1.sections[0].cross_section).outer_diameter_mm};
   for (const scene::Load& load : s1.loads) {
-    if (const auto* force = as<scene::Force>(load)) rod.tip_force_N += force->value_N;
-    if (const auto* moment = as<scene::Moment>(load)) rod.tip_moment_Nmm += moment->value_Nmm;
+    if (const auto* force = known_load<scene::Force>(load)) rod.tip_force_N += force->value_N;
+    if (const auto* moment = known_load<scene::Moment>(load)) rod.tip_moment_Nmm += moment->value_Nmm;
   }
   return rod;
 }
@@ -55,7 +55,7 @@ scene::Scene with_straight_tendons(scene::Scene scene) {
   const scene::Stiffness stiffness = scene::stiffness_of(scene.sections[0]);
   Vector3d moment_Nmm = Vector3d::Zero();
   std::erase_if(scene.loads, [&](const scene::Load& load) {
-    const auto* tendon = as<scene::Tendon>(load);
+    const auto* tendon = known_load<scene::Tendon>(load);
     if (tendon) moment_Nmm += tendon->tension_N * Vector3d(0, -tendon->offset_mm[1], tendon->offset_mm[0]);
     return tendon != nullptr;
   });
@@ -171,7 +171,7 @@ class Torsion {
   std::vector<Timed> works() const {
     std::vector<Timed> list;
     scene::Scene plane = s1_;
-    std::erase_if(plane.loads, [](const scene::Load& load) { return as<scene::Moment>(load) != nullptr; });
+    std::erase_if(plane.loads, [](const scene::Load& load) { return known_load<scene::Moment>(load) != nullptr; });
     const scene::Scene torque = with_torque(s1_, largest_printed_Nmm);
     for (const auto& [name, scene] :
          {std::pair<std::string, const scene::Scene&>{"plane", plane}, {"space", s1_}, {"torque", torque}}) {

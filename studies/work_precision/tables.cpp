@@ -1,4 +1,5 @@
 #include "studies/report/table.h"
+#include "studies/timing_cells.h"
 
 #include "studies/report/provenance.h"
 #include "studies/work_precision/competitors.h"
@@ -30,12 +31,9 @@ std::string accuracy_csv(const WorkData& data) {
 }
 
 std::string timing_csv(const WorkData& data) {
-  Table table({"scene", "method", "model", "resolution", "status", "start", "median_us", "lower_quartile_us",
-               "upper_quartile_us", "repeats"});
+  Table table(with_timing_columns({"scene", "method", "model", "resolution", "status", "start"}));
   const auto add = [&](const WorkPoint& p, const char* start, const Timing& t) {
-    table.add({p.scene, p.series, p.model, p.resolution, p.status, start, fixed(t.median_us, 2),
-               t.has_spread() ? fixed(t.lower_quartile_us, 2) : "", t.has_spread() ? fixed(t.upper_quartile_us, 2) : "",
-               std::to_string(t.repeats)});
+    table.add(with_timing({p.scene, p.series, p.model, p.resolution, p.status, start}, t, fixed, 2));
   };
   for (const WorkPoint& p : data.points) {
     if (p.time) add(p, "cold", *p.time);
@@ -81,15 +79,12 @@ std::string aims_csv(const WorkData& data) {
 }
 
 std::string timing_aims_csv(const WorkData& data) {
-  Table table({"scene", "target_mm", "method", "resolution", "aim_us", "median_us", "lower_quartile_us",
-               "upper_quartile_us", "repeats"});
+  Table table(with_timing_columns({"scene", "target_mm", "method", "resolution", "aim_us"}));
   for (const AimRow& row : data.aims) {
     if (row.resolution == 0) continue;
-    const bool spread = row.time.has_spread();
-    table.add({row.scene, scientific(row.target_mm, 0), row.method, std::to_string(row.resolution),
-               fmt::format("{}", row.aim_us), fixed(row.time.median_us, 3),
-               spread ? fixed(row.time.lower_quartile_us, 3) : "", spread ? fixed(row.time.upper_quartile_us, 3) : "",
-               std::to_string(row.time.repeats)});
+    table.add(with_timing({row.scene, scientific(row.target_mm, 0), row.method, std::to_string(row.resolution),
+                           fmt::format("{}", row.aim_us)},
+                          row.time, fixed, 3));
   }
   return table.csv({machine_line()});
 }

@@ -1,0 +1,71 @@
+#include "apps/batch_command.h"
+
+#include "apps/values_file.h"
+#include "fam/batch.h"
+#include "scene/scene_file.h"
+#include "studies/report/output_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace apps {
+namespace {
+
+std::string to_csv(const fam::BatchResult& result) {
+  std::string csv = "x_mm,y_mm,z_mm,qw,qx,qy,qz,error_estimate_mm,status\n";
+  for (std::size_t k = 0; k < result.status.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    if (result.status[k] == scene::Status::converged) {
+      for (const double coordinate : result.position_mm.row(row)) csv += fmt::format("{},", coordinate);
+      for (const double component : result.rotation_wxyz.row(row)) csv += fmt::format("{},", component);
+      csv += fmt::format("{},", result.error_estimate_mm[row]);
+    } else {
+      csv += ",,,,,,,,";
+    }
+    csv += fmt::format("{}\n", scene::name(result.status[k]));
+  }
+  return csv;
+}
+
+}  // namespace
+
+CLI::App* add_batch_command(CLI::App& app, BatchArguments& arguments) {
+  CLI::App* batch = app.add_subcommand("batch", "Solve one scene for many values of its loads");
+  add_scene_and_options(batch, arguments.scene_path, arguments.fam);
+  batch
+      ->add_option("--values", arguments.values_path,
+                   "Values (CSV), or - for standard input: a row a rod, columns such as 0.x or 2.tension")
+      ->required();
+  batch->add_option("--output", arguments.output_path, "Results (CSV), a row a rod (default: -, standard output)");
+  batch->add_flag_callback(
+      "--no-estimate", [&arguments] { arguments.fam.estimate_error = false; }, "Leave the error estimate out");
+  batch->callback([&arguments] {
+    if (arguments.scene_path == "-" && arguments.values_path == "-")
+      throw CLI::ValidationError("--values", "standard input is the scene already");
+    if (arguments.values_path.empty() || arguments.output_path.empty())
+      throw CLI::ValidationError(arguments.values_path.empty() ? "--values" : "--output", "must name a file");
+  });
+  return batch;
+}
+
+int run_batch(const BatchArguments& arguments) {
+  const scene::Scene scene = scene::read_scene_file(arguments.scene_path);
+  const Values values = read_values_file(arguments.values_path, scene);
+  const auto start = std::chrono::steady_clock::now();
+  const fam::BatchResult result = fam::solve_batch(scene, values.columns, values.values, arguments.fam);
+  const double time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+  const std::string csv = to_csv(result);
+  if (arguments.output_path == "-") fmt::print("{}", csv);
+  else studies::write_file(arguments.output_path, csv);
+  const auto rods = static_cast<std::ptrdiff_t>(result.status.size());
+  fmt::print(stderr, "{} rods in {:.3g} s, {:.3g} rods/s\n", rods, time_s, static_cast<double>(rods) / time_s);
+  const auto solved = std::count(result.status.begin(), result.status.end(), scene::Status::converged);
+  if (solved == rods) return exit_solved;
+  fmt::print(stderr, "{} of {} rods not converged; their status says why\n", rods - solved, rods);
+  return exit_not_converged;
+}
+
+}  // namespace apps

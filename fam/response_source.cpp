@@ -1,0 +1,98 @@
+// Where the sources of fam/response.h act, and the slopes that they give to the arcs there.
+#include "fam/response.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fam {
+namespace {
+
+constexpr double same_part = 1e-12;  // of an arc: the place is the arc's end
+
+}  // namespace
+
+std::size_t Response::span_ending_at(double s_mm) const {
+  const auto& spans = solution_.spans;
+  const auto above = std::lower_bound(spans.begin(), spans.end() - 1, s_mm,
+                                      [](const scene::Span& span, double s) { return span.end_mm < s; });
+  const auto i = static_cast<std::size_t>(above - spans.begin());
+  return i > 0 && s_mm - above->start_mm < above->end_mm - s_mm ? i - 1 : i;
+}
+
+Response::Place Response::place_of(double s_mm) const {
+  const auto& spans = solution_.spans;
+  const double length_mm = spans.back().end_mm;
+  if (!(s_mm >= 0 && s_mm <= length_mm * (1 + scene::same_place_relative))) return {};
+  std::size_t i = 0;
+  while (i + 1 < spans.size() && s_mm > spans[i].end_mm + scene::same_place_relative * length_mm) ++i;
+  const double arcs = (s_mm - spans[i].start_mm) / arc_length_mm(i);
+  const double end = std::clamp(std::ceil(arcs - same_part), 1.0, static_cast<double>(solution_.arcs_per_span[i]));
+  const double part = end - arcs;
+  return {i, first_arcs_[i] + static_cast<std::size_t>(end) - 1, part > same_part ? part : 0, true};
+}
+
+// Whether the source changes an arc of this span.
+bool Response::acts_in(const Source& source, std::size_t i) const {
+  const scene::Span& span = solution_.spans[i];
+  const double middle_mm = (span.start_mm + span.end_mm) / 2;
+  switch (source.kind) {
+    case Kind::rest_curvature:
+    case Kind::stiffness: return section_of_span_[i] == source.index;
+    case Kind::tension: return middle_mm < std::get<scene::Tendon>(solution_.scene->loads[source.index]).to_mm;
+    case Kind::distributed:
+      if (const auto* force = std::get_if<scene::DistributedForce>(&solution_.scene->loads[source.index])) {
+        return force->from_mm < middle_mm && middle_mm < force->to_mm;
+      }
+      return span.stiffness.mass_per_length_kg_per_m > 0;
+    default: return false;
+  }
+}
+
+bool Response::brings_forces(const Source& source, std::size_t i) const {
+  return source.kind == Kind::distributed && acts_in(source, i);
+}
+
+void Response::add_source(const Source& source, std::size_t i, double length_mm, const Matrix3d& rotation_BS,
+                          ArcChange<3>& change) const {
+  if (!acts_in(source, i)) return;
+  if (source.kind == Kind::rest_curvature) change.constant = Constant::rest_curvature;
+  if (source.kind == Kind::stiffness) change.constant = Constant::stiffness;
+  if (source.kind == Kind::tension) {
+    const Eigen::Vector2d& offset_mm = std::get<scene::Tendon>(solution_.scene->loads[source.index]).offset_mm;
+    change.constant = Constant::tension;
+    change.tendon_arm_mm = {0, offset_mm[0], offset_mm[1]};
+  }
+  if (source.kind != Kind::distributed) return;
+  const auto* force = std::get_if<scene::DistributedForce>(&solution_.scene->loads[source.index]);
+  if (force && force->frame == scene::Frame::follower) {
+    change.follower_S_N += length_mm * Matrix3d::Identity();
+  } else {
+    const double mass = 1e-3 * solution_.spans[i].stiffness.mass_per_length_kg_per_m;  // kg/m m/s^2 = 1e-3 N/mm
+    change.fixed_D_N += (force ? 1 : mass) * length_mm * rotation_BS.transpose();
+  }
+}
+
+// As arc_constants, which allocates.
+void Response::set_constants(std::size_t i, double length_mm) {
+  const scene::Span& span = solution_.spans[i];
+  const scene::Stiffness& stiffness = span.stiffness;
+  const Vector3d angular(stiffness.torsion_Nmm2, stiffness.bending_Nmm2[0], stiffness.bending_Nmm2[1]);
+  constants_.length_mm = length_mm;
+  constants_.angular_compliance = length_mm * angular.cwiseInverse();
+  constants_.rest_rotation = length_mm * span.rest_curvature_per_mm;
+  constants_.rest_translation_mm[0] = length_mm;
+  constants_.linear_compliance.setZero();
+  if (solution_.model == scene::RodModel::reissner) {
+    if (stiffness.axial_N) constants_.linear_compliance[0] = length_mm / *stiffness.axial_N;
+    if (stiffness.shear_N) constants_.linear_compliance.tail<2>() = length_mm * stiffness.shear_N->cwiseInverse();
+  }
+  set_tendons(constants_, span, solution_.model, 1);
+}
+
+ArcForces<double, 3> Response::forces_on(std::size_t i, double length_mm, const Matrix3d& rotation_BS) const {
+  const scene::Span& span = solution_.spans[i];
+  return {length_mm * span.follower_force_S_N_per_mm,
+          rotation_BS.transpose() * (length_mm * span.fixed_force_B_N_per_mm)};
+}
+
+}  // namespace fam

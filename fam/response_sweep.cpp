@@ -1,0 +1,209 @@
+// The linear equations of fam/response.h: made arc by arc, and solved for one source.
+#include "fam/response.h"
+#include "fam/skew.h"
+
+#include <Eigen/LU>
+
+namespace fam {
+namespace {
+
+using Columns = Response::Columns;
+
+// How the point loads at a span's end answer a turn of the section there.
+Columns turn_stiffness(const scene::Span& span, const Matrix3d& rotation_BS) {
+  Columns slopes;
+  slopes.topRows<3>() = -skew(rotation_BS * span.follower_load_S.force_N);
+  slopes.bottomRows<3>() = -skew(rotation_BS * span.follower_load_S.moment_Nmm);
+  const Matrix3d arms = span.fixed_force_arms_BS_Nmm * rotation_BS.transpose();  // sum F (R r)^T
+  slopes.bottomRows<3>() += arms.transpose() - arms.trace() * Matrix3d::Identity();
+  return slopes;
+}
+
+// One for each component of the distal wrench.
+template <int N>
+ArcChange<N> unit_changes() {
+  ArcChange<N> change;
+  change.force_N.template leftCols<3>().setIdentity();
+  change.moment_Nmm.template middleCols<3>(3).setIdentity();
+  return change;
+}
+
+// Blocks of three rows and columns, from a section's frame into the base frame.
+template <int rows, int N>
+void to_base(const Matrix3d& rotation_BS, const Eigen::Matrix<double, 12, N>& from, Eigen::Matrix<double, 12, 9>& to) {
+  const Matrix3d rotation_SB = rotation_BS.transpose();
+  for (int column = 0; column < N; column += 3) {
+    for (int row = 0; row < rows; row += 3) {
+      const Matrix3d half = from.template block<3, 3>(row, column) * rotation_SB;
+      to.block<3, 3>(row, column).noalias() = rotation_BS * half;
+    }
+  }
+}
+
+// a x b for each column of b.
+template <class B>
+Matrix3d crossed(const Vector3d& a, const B& b) {
+  Matrix3d result;
+  for (int i = 0; i < 3; ++i) {
+    result(0, i) = a[1] * b(2, i) - a[2] * b(1, i);
+    result(1, i) = a[2] * b(0, i) - a[0] * b(2, i);
+    result(2, i) = a[0] * b(1, i) - a[1] * b(0, i);
+  }
+  return result;
+}
+
+}  // namespace
+
+void Response::prepare() {
+  if (prepared_) return;
+  prepared_ = true;
+  name_spans();
+  for (std::size_t i = solution_.spans.size(); i-- > 0;) factorise_span(i);
+}
+
+// Which arcs and which section each has.
+void Response::name_spans() {
+  first_arcs_.assign(1, 0);
+  section_of_span_.clear();
+  const auto& sections = solution_.scene->sections;
+  std::size_t section = 0;
+  double section_end_mm = sections[0].length_mm;
+  for (std::size_t i = 0; i < solution_.spans.size(); ++i) {
+    const scene::Span& span = solution_.spans[i];
+    first_arcs_.push_back(first_arcs_.back() + static_cast<std::size_t>(solution_.arcs_per_span[i]));
+    while ((span.start_mm + span.end_mm) / 2 >= section_end_mm && section + 1 < sections.size()) {
+      section_end_mm += sections[++section].length_mm;
+    }
+    section_of_span_.push_back(section);
+  }
+}
+
+void Response::factorise_span(std::size_t i) {
+  set_constants(i, arc_length_mm(i));
+  for (std::size_t k = first_arcs_[i + 1]; k-- > first_arcs_[i];) carry(i, k, linearise(i, k));
+}
+
+// Slopes and solution of an arc, base frame; the force and moment that its distributed forces add.
+SectionWrench Response::linearise(std::size_t i, std::size_t k) {
+  const Matrix3d& R = solution_.poses[k + 1].rotation_BS;
+  const SectionWrench& wrench = solution_.distal_wrenches_S[k];
+  Arc& arc = arcs_[k];
+  arc.force_N = R * wrench.force_N;
+  arc.moment_Nmm = R * wrench.moment_Nmm;
+  if (!has_forces(i)) {
+    const ArcVariation<6> variation =
+        vary_arc(solution_.law, solution_.model, constants_, nullptr, wrench, unit_changes<6>());
+    to_base<6>(R, variation.slopes, arc.slopes);
+    arc.way_mm = R * variation.way_D_mm;
+    return {};
+  }
+  ArcChange<9> change = unit_changes<9>();
+  change.fixed_D_N.rightCols<3>().setIdentity();
+  const ArcForces<double, 3> forces = forces_on(i, constants_.length_mm, R);
+  const ArcVariation<9> variation = vary_arc(solution_.law, solution_.model, constants_, &forces, wrench, change);
+  to_base<12>(R, variation.slopes, arc.slopes);
+  arc.way_mm = R * variation.way_D_mm;
+  return {R * variation.gain_D.force_N, R * variation.gain_D.moment_Nmm};
+}
+
+// S at the arc's distal end, from that beyond, and what the arc makes of it: its own answer to the turn of its proximal
+// end, and S there.
+void Response::carry(std::size_t i, std::size_t k, const SectionWrench& gain_B) {
+  Arc& arc = arcs_[k];
+  const scene::Span& span = solution_.spans[i];
+  arc.stiffness.setZero();
+  if (k + 1 < first_arcs_.back()) arc.stiffness = arcs_[k + 1].onwards;
+  if (k + 1 == first_arcs_[i + 1]) arc.stiffness += turn_stiffness(span, solution_.poses[k + 1].rotation_BS);
+
+  // What the arc meets in its distal frame, by the turn of that: wrench and fixed force.
+  Eigen::Matrix<double, 9, 3> met;
+  met.topRows<6>() = arc.stiffness;
+  met.topRows<3>() += skew(arc.force_N);
+  met.middleRows<3>(3) += skew(arc.moment_Nmm);
+  Eigen::Matrix<double, 12, 3> answer;
+  const bool distributed = has_forces(i);
+  if (distributed) {
+    met.bottomRows<3>() = skew(arc_length_mm(i) * span.fixed_force_B_N_per_mm);
+    answer = arc.slopes * met;
+  } else {
+    answer.topRows<6>() = arc.slopes.topLeftCorner<6, 6>() * met.topRows<6>();
+  }
+  arc.turn_by_turn = (Matrix3d::Identity() - answer.topRows<3>()).inverse();
+  arc.way_by_turn = answer.middleRows<3>(3) - skew(arc.way_mm);
+
+  arc.proximal_force_N = arc.force_N + gain_B.force_N;
+  Columns carried = arc.stiffness;
+  if (distributed) {
+    carried += answer.bottomRows<6>();
+    carried.topRows<3>() -= skew(gain_B.force_N);
+    carried.bottomRows<3>() -= skew(gain_B.moment_Nmm);
+  }
+  carried.bottomRows<3>() += crossed(arc.way_mm, carried.topRows<3>()) - crossed(arc.proximal_force_N, arc.way_by_turn);
+  arc.onwards = carried * arc.turn_by_turn;
+}
+
+// w, from the tip; the arcs' own turns and ways wait in the nodes.
+void Response::sweep_to_clamp(Sweep& sweep) {
+  Columns w = Columns::Zero();
+  for (std::size_t i = solution_.spans.size(); i-- > 0;) {
+    const bool acts = acts_in(sweep.source, i), distributed = has_forces(i);
+    if (acts) set_constants(i, arc_length_mm(i));
+    for (std::size_t k = first_arcs_[i + 1]; k-- > first_arcs_[i];) {
+      const Arc& arc = arcs_[k];
+      Node& node = sweep.nodes[k];
+      if (i == sweep.jump_span && k + 1 == first_arcs_[i + 1]) w += sweep.wrench_jump - arc.stiffness * sweep.turn_jump;
+      node.wrench = w;
+      if (!distributed && !acts) {
+        const Columns answer = arc.slopes.topLeftCorner<6, 6>() * w;
+        node.turn = answer.topRows<3>();
+        node.shift_mm = answer.bottomRows<3>();
+      } else {
+        Eigen::Matrix<double, 12, 3> answer = Eigen::Matrix<double, 12, 3>::Zero();
+        if (distributed) answer = arc.slopes.leftCols<6>() * w;
+        else answer.topRows<6>() = arc.slopes.topLeftCorner<6, 6>() * w;
+        if (acts) answer += source_in(sweep.source, i, k);
+        node.turn = answer.topRows<3>();
+        node.shift_mm = answer.middleRows<3>(3);
+        w += answer.bottomRows<6>();
+      }
+      w.bottomRows<3>() += crossed(arc.way_mm, w.topRows<3>()) - crossed(arc.proximal_force_N, node.shift_mm);
+      w += arc.onwards * node.turn;
+    }
+  }
+}
+
+// What the source makes of an arc whose distal end is held: turn, way, force and moment, base frame.
+Eigen::Matrix<double, 12, 3> Response::source_in(const Source& source, std::size_t i, std::size_t k) const {
+  const Matrix3d& R = solution_.poses[k + 1].rotation_BS;
+  ArcChange<3> change;
+  add_source(source, i, constants_.length_mm, R, change);
+  if (has_forces(i) && change.constant == Constant::none && change.follower_S_N.isZero(0)) {
+    return arcs_[k].slopes.rightCols<3>() * (R * change.fixed_D_N);
+  }
+  const ArcForces<double, 3> forces = forces_on(i, constants_.length_mm, R);
+  const bool with_forces = has_forces(i) || brings_forces(source, i);
+  const ArcVariation<3> variation = vary_arc(solution_.law, solution_.model, constants_,
+                                             with_forces ? &forces : nullptr, solution_.distal_wrenches_S[k], change);
+  Eigen::Matrix<double, 12, 3> result;
+  for (int row = 0; row < 12; row += 3) result.middleRows<3>(row) = R * variation.slopes.middleRows<3>(row);
+  return result;
+}
+
+// Turns and shifts, from the clamp.
+void Response::sweep_to_tip(Sweep& sweep) const {
+  Matrix3d turn = Matrix3d::Zero(), shift_mm = Matrix3d::Zero();
+  for (std::size_t k = 0; k < first_arcs_.back(); ++k) {
+    const Arc& arc = arcs_[k];
+    Node& node = sweep.nodes[k];
+    turn = (arc.turn_by_turn * (turn + node.turn)).eval();
+    shift_mm += arc.way_by_turn * turn + node.shift_mm;
+    node.turn = turn;
+    node.shift_mm = shift_mm;
+    if (k + 1 == first_arcs_[sweep.jump_span + 1]) {
+      turn -= sweep.turn_jump;
+      shift_mm -= sweep.shift_jump_mm;
+    }
+  }
+}
+
+}  // namespace fam

@@ -1,0 +1,114 @@
+#include "scene/json_file.h"
+
+#include "scene/scene.h"
+
+#include <set>
+#include <vector>
+
+namespace scene {
+namespace {
+
+// What no scene needs, refused while the file is read, so that time and memory stay in proportion to its size.
+constexpr int max_depth = 16;          // the format needs 6
+constexpr std::size_t max_keys = 32;   // of one object; the format needs 5
+constexpr int max_values = 4'000'000;  // of the file; 100 000 loads need some 2 million
+
+// Text from the file for an error message: one line of printable ASCII, other bytes as \xHH, cut where it is longer.
+std::string printable(const std::string& text, std::size_t longest) {
+  constexpr const char* digits = "0123456789abcdef";
+  std::string shown;
+  for (const char c : text) {
+    if (shown.size() >= longest) return shown + "...";
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= ' ' && byte <= '~') shown += c;
+    else shown += {'\\', 'x', digits[byte / 16], digits[byte % 16]};
+  }
+  return shown;
+}
+
+}  // namespace
+
+void refuse(const std::string& source, const std::string& path, const std::string& value, const std::string& rule) {
+  const std::string where = path.empty() ? "(top level)" : printable(path, 200);
+  throw SceneError(source + ": " + where + " = " + printable(value, 80) + ": " + printable(rule, 300));
+}
+
+std::string dump(const Json& value) {
+  return value.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
+std::string join(const std::string& path, const std::string& key) {
+  const std::string shown = printable(key, 60);
+  return path.empty() ? shown : path + "." + shown;
+}
+
+namespace {
+
+// Follows the parser so that an error inside the text can be named by its JSON path; refuses what no scene needs, and a
+// key given twice, of which a JSON parser would silently keep the last.
+class PathTracker {
+ public:
+  explicit PathTracker(const std::string& source) : source_(source) {}
+
+  bool operator()(int /*depth*/, Json::parse_event_t event, const Json& parsed) {
+    using Event = Json::parse_event_t;
+    if (++values_ > max_values) refuse(source_, path(), "(too much)", "more values than a scene can have");
+    if (event == Event::object_start || event == Event::array_start) {
+      levels_.push_back({event == Event::array_start, {}, {}, 0});
+      if (levels_.size() > max_depth) refuse(source_, path(), "{...", "nested too deeply for a scene");
+    } else if (event == Event::key) {
+      Level& level = levels_.back();
+      level.key = parsed.get<std::string>();
+      if (level.keys.size() == max_keys)
+        refuse(source_, path(), dump(parsed), "more keys than an object here can have");
+      if (!level.keys.insert(level.key).second) refuse(source_, path(), dump(parsed), "the key is given twice");
+    } else {
+      if (event != Event::value) levels_.pop_back();
+      if (!levels_.empty() && levels_.back().is_array) ++levels_.back().index;
+    }
+    return true;
+  }
+
+  std::string path() const {
+    std::string text;
+    for (const Level& level : levels_) {
+      if (level.is_array) text += "[" + std::to_string(level.index) + "]";
+      else if (!level.key.empty()) text = join(text, level.key);
+    }
+    return text;
+  }
+
+ private:
+  struct Level {
+    bool is_array;
+    std::set<std::string> keys;
+    std::string key;
+    int index;
+  };
+
+  const std::string& source_;
+  std::vector<Level> levels_;
+  int values_ = 0;  // beginnings, ends, keys and values
+};
+
+}  // namespace
+
+Json parse(const std::string& text, const std::string& source) {
+  if (text.find('\0') != std::string::npos) {  // the parser would stop there and not see the rest
+    refuse(source, "", "(unreadable)", "not JSON: byte " + std::to_string(text.find('\0')) + " is zero");
+  }
+  PathTracker tracker(source);
+  try {
+    return Json::parse(text, std::ref(tracker));
+  } catch (const Json::parse_error& error) {
+    const std::string what = error.what();  // "[json.exception...] parse error at line 1, column 2: ..."
+    refuse(source, tracker.path(), "(unreadable)", "not JSON: " + what.substr(what.find("] ") + 2));
+  } catch (const Json::out_of_range& error) {
+    const std::string what = error.what();  // "... number overflow parsing '1e999'"
+    const std::size_t quote = what.find('\'');
+    const std::string number = quote == std::string::npos ? "?" : what.substr(quote + 1, what.rfind('\'') - quote - 1);
+    refuse(source, tracker.path(), number, "must be finite: the number does not fit a double");
+  }
+}
+
+}  // namespace scene

@@ -1,0 +1,258 @@
+// The kept solver: set in place, solved again from the last solution, without allocating.
+#include "allocation_counter.h"
+#include "exact_reference/solve.h"
+#include "scene/span_facts.h"
+#include "support.h"
+#include "support_fam.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <random>
+
+namespace {
+
+using Eigen::Vector3d;
+using fam::Solver;
+using scene::Frame;
+using scene::Status;
+using support::kept;
+using support::slender;
+using support::uniform_rod;
+
+// Every kind of load, two sections, stiff and soft.
+scene::Scene robot() {
+  scene::Scene scene = uniform_rod(60, slender(1500, 1000), {});
+  scene.sections[0].cross_section = [] {
+    scene::Stiffness stiffness = slender(1500, 1000);
+    stiffness.mass_per_length_kg_per_m = 0.02;
+    return stiffness;
+  }();
+  scene.sections.push_back(scene.sections[0]);
+  scene.sections[1].length_mm = 40;
+  scene.loads = {scene::Gravity{{0, -9.81, 0}},
+                 scene::Tendon{{1.5, 0}, 1, 100},
+                 scene::Tendon{{0, 1.5}, 0, 60},
+                 scene::Force{100, Frame::fixed, {0, 0.1, 0}},
+                 scene::Force{45, Frame::follower, {0, 0, 0}, {2, 0}},
+                 scene::Moment{80, Frame::fixed, {0, 0, 2}},
+                 scene::DistributedForce{20, 70, Frame::follower, {0, 0.001, 0}}};
+  return scene;
+}
+
+// Random values of all that can be set; `size` 0 to 1.
+class Joystick {
+ public:
+  explicit Joystick(std::uint64_t seed) : generator_(seed) {}
+  Vector3d vector(double size) {
+    return size * Vector3d(uniform_(generator_), uniform_(generator_), uniform_(generator_));
+  }
+  double number(double from, double to) { return from + (to - from) * (uniform_(generator_) + 1) / 2; }
+  void set(Solver& solver) {
+    solver.set_acceleration_m_per_s2(0, vector(9.81));
+    solver.set_tension_N(1, number(-1, 4) > 0 ? number(0, 4) : 0);
+    solver.set_tension_N(2, number(0, 3));
+    solver.set_force_N(3, vector(0.3));
+    solver.set_force_N(4, number(0, 1) > 0.5 ? vector(0.2) : Vector3d::Zero());
+    solver.set_moment_Nmm(5, vector(8));
+    solver.set_distributed_N_per_mm(6, vector(0.003));
+    solver.set_rest_curvature_per_mm(1, vector(0.005));
+    if (number(0, 1) > 0.7) solver.set_at_mm(4, number(1, 100));
+    if (number(0, 1) > 0.7) solver.set_at_mm(5, number(1, 100));
+  }
+
+ private:
+  std::mt19937_64 generator_;
+  std::uniform_real_distribution<double> uniform_{-1, 1};
+};
+
+double pose_distance_mm(const scene::Pose& a, const scene::Pose& b, double length_mm) {
+  return std::max((a.position_B_mm - b.position_B_mm).norm(), length_mm * (a.rotation_BS - b.rotation_BS).norm());
+}
+
+TEST(Solver, NoAllocationAfterMake) {
+  Joystick joystick(1);
+  fam::Options options;
+  options.tolerance_mm = 1e-3;
+  Solver solver = kept(robot(), options);
+  const std::size_t before = allocation_count();
+  int converged = 0;
+  double sum = 0;
+  for (int round = 0; round < 3000; ++round) {
+    joystick.set(solver);
+    converged += solver.solve(round % 7 == 0 ? Solver::Start::unloaded : Solver::Start::last_solution).converged();
+    sum += solver.pose_at(joystick.number(0, 100)).position_B_mm[0] + solver.wrench_at(30).force_N[0] +
+           solver.base_wrench_B().force_N[0] + solver.poses().back().position_B_mm[0] +
+           solver.wrenches_B().front().force_N[0] + solver.s_mm()[0];
+    if (round % 10 == 0) sum += solver.error_estimate_mm() + solver.stable().value_or(false);
+  }
+  EXPECT_EQ(allocation_count(), before);
+  EXPECT_GT(converged, 2990);  // 3000
+  EXPECT_TRUE(std::isfinite(sum));
+}
+
+// Planar scenes leave the plane and lose their fixed loads: other kernels, no allocation.
+TEST(Solver, LeavesThePlaneWithoutAllocating) {
+  scene::Scene scene = uniform_rod(100, slender(1000, 700),
+                                   {scene::Force{100, Frame::fixed, {0, 0.1, 0}}, scene::Tendon{{1, 0}, 0, 100}});
+  fam::Options options;
+  options.tolerance_mm = 1e-6;
+  Solver solver = kept(scene, options);
+  const std::size_t before = allocation_count();
+  const auto expect = [&](const Vector3d& force_N, double tension_N) {
+    solver.set_force_N(0, force_N);
+    solver.set_tension_N(1, tension_N);
+    EXPECT_TRUE(solver.solve().converged());
+    const Vector3d tip_mm = solver.tip().position_B_mm;
+    EXPECT_TRUE(solver.solve(Solver::Start::unloaded).converged());
+    EXPECT_LT((solver.tip().position_B_mm - tip_mm).norm(), 1e-6) << force_N.transpose();
+  };
+  expect({0, 0.1, 0}, 0);
+  expect({0, 0.1, 0.05}, 0);
+  expect({0, 0.1, 0.05}, 2);
+  expect({0, 0, 0}, 2);
+  expect({0, 0, 0}, 0);
+  expect({0, 0, 0.1}, 1);
+  EXPECT_EQ(allocation_count(), before);
+}
+
+// Warm and cold lead to one answer where the rod has but one; the twin, a stiffer rod, is seen.
+TEST(Solver, WarmIsCold) {
+  Joystick joystick(2);
+  fam::Options options;
+  options.tolerance_mm = 1e-7;
+  Solver warm = kept(robot(), options), cold = kept(robot(), options);
+  double worst_mm = 0, stiffer_mm = 0;
+  for (int round = 0; round < 200; ++round) {
+    joystick.set(warm);
+    ASSERT_TRUE(warm.solve().converged()) << round;
+    cold = kept(warm.scene(), options);
+    ASSERT_TRUE(cold.solve().converged()) << round;
+    worst_mm = std::max(worst_mm, pose_distance_mm(warm.tip(), cold.tip(), 100));
+    if (round < 10) {
+      Solver stiffer = kept(support::stiffer(warm.scene()), options);
+      stiffer.solve();
+      stiffer_mm = std::max(stiffer_mm, pose_distance_mm(warm.tip(), stiffer.tip(), 100));
+    }
+  }
+  EXPECT_LT(worst_mm, 1e-6);
+  EXPECT_GT(stiffer_mm, 0.1);
+}
+
+// Against the exact reference, along the whole rod.
+TEST(Solver, PosesAndWrenchesAreExact) {
+  Joystick joystick(3);
+  fam::Options options;
+  options.tolerance_mm = 1e-8;
+  Solver solver = kept(robot(), options);
+  for (int round = 0; round < 12; ++round) {
+    joystick.set(solver);
+    ASSERT_TRUE(solver.solve().converged());
+    const scene::Equilibrium exact = exact_reference::solve(solver.scene());
+    ASSERT_TRUE(exact.converged());
+    double pose_mm = 0, wrench = 0;
+    for (const scene::Station& station : exact.stations) {
+      pose_mm = std::max(pose_mm, pose_distance_mm(solver.pose_at(station.s_mm), station.X_BS, 100));
+      const scene::Wrench own = solver.wrench_at(station.s_mm);
+      wrench = std::max(
+          {wrench, 100 * (own.force_N - station.force_B_N).norm(), (own.moment_Nmm - station.moment_B_Nmm).norm()});
+    }
+    EXPECT_LT(pose_mm, 1e-6) << round;
+    EXPECT_LT(wrench, 1e-6) << round;  // N mm
+    EXPECT_LT(solver.error_estimate_mm(), 1e-8);
+    EXPECT_EQ(solver.stable(), fam::solve(solver.scene()).stable);
+  }
+}
+
+// A column beyond its Euler load, bent to one side by a small force, is pushed over to the other: it snaps at a fold.
+TEST(Solver, StopsAtAFoldAndKeepsItsSolution) {
+  const double EI = 1000, L = 100, euler_N = EI * std::pow(M_PI / (2 * L), 2);
+  scene::Stiffness strip = slender(EI, EI);
+  strip.bending_Nmm2[0] = 3 * EI;  // does not give way sideways
+  const scene::Scene scene = uniform_rod(L, strip, {scene::Force{L, Frame::fixed, {-1.1 * euler_N, 1e-2, 0}}});
+  fam::Options options;
+  options.tolerance_mm = 1e-6;
+  Solver solver = kept(scene, options);
+  ASSERT_TRUE(solver.solve().converged());
+  const double bent_mm = solver.tip().position_B_mm[1];
+  ASSERT_GT(bent_mm, 30);
+  solver.set_force_N(0, {-1.1 * euler_N, -6e-3, 0});  // past zero, not yet at the fold
+  EXPECT_TRUE(solver.solve().converged());
+  EXPECT_GT(solver.tip().position_B_mm[1], 30);
+  EXPECT_EQ(solver.stable(), true);
+  const Vector3d held_mm = solver.tip().position_B_mm;
+  solver.set_force_N(0, {-1.1 * euler_N, -1e-2, 0});
+  const Solver::Outcome outcome = solver.solve();
+  EXPECT_EQ(outcome.status, Status::limit_point) << outcome.message;
+  EXPECT_EQ(solver.tip().position_B_mm, held_mm);
+  EXPECT_TRUE(solver.solve(Solver::Start::unloaded).converged());
+  EXPECT_NEAR(solver.tip().position_B_mm[1], -bent_mm, 1e-6);
+}
+
+// A refused value leaves all as it was, and is told as the scene format tells it.
+TEST(Solver, RefusesWrongValues) {
+  Solver solver = kept(robot(), {});
+  solver.solve();
+  const auto message = [&](auto&& change) -> std::string {
+    try {
+      change();
+    } catch (const scene::SceneError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const double nan = std::nan("");
+  EXPECT_EQ(message([&] {
+              solver.set_force_N(3, {0, nan, 0});
+            }),
+            "scene: loads[3].value_N = [0, nan, 0]: must be finite");
+  EXPECT_EQ(message([&] { solver.set_tension_N(1, -1); }), "scene: loads[1].tension_N = -1: must be >= 0");
+  EXPECT_EQ(message([&] { solver.set_at_mm(3, 101); }),
+            "scene: loads[3].at = 101: must lie on the rod, 0 < s <= 100 mm");
+  EXPECT_EQ(message([&] { solver.set_force_N(1, {0, 0, 0}); }), "scene: loads[1].kind = tendon: must be force");
+  EXPECT_EQ(message([&] { solver.set_moment_Nmm(7, {0, 0, 0}); }), "scene: loads[7]: there are 7 loads");
+  EXPECT_EQ(message([&] {
+              solver.set_rest_curvature_per_mm(2, {0, 0, 0});
+            }),
+            "scene: rod.sections[2]: there are 2 sections");
+  EXPECT_EQ(message([&] {
+              solver.set_rest_curvature_per_mm(0, {0, 0, nan});
+            }),
+            "scene: rod.sections[0].rest_curvature_per_mm = [0, 0, nan]: must be finite");
+  const Vector3d before_mm = solver.tip().position_B_mm;
+  EXPECT_TRUE(solver.solve(Solver::Start::unloaded).converged());
+  EXPECT_EQ(solver.tip().position_B_mm, before_mm);
+}
+
+TEST(Solver, IsNaNWithoutAnAnswer) {
+  Solver solver = kept(robot(), {});
+  EXPECT_TRUE(solver.tip().position_B_mm.array().isNaN().all());
+  EXPECT_TRUE(solver.poses().empty());
+  EXPECT_TRUE(std::isnan(solver.error_estimate_mm()));
+  EXPECT_TRUE(solver.compliance(50).array().isNaN().all());
+  solver.solve();
+  for (const double s_mm : {-1e-9, 100.1, std::nan("")}) {
+    EXPECT_TRUE(solver.pose_at(s_mm).position_B_mm.array().isNaN().all());
+    EXPECT_TRUE(solver.wrench_at(s_mm).force_N.array().isNaN().all());
+  }
+  EXPECT_TRUE(solver.pose_at(0).position_B_mm.isZero(0));
+  EXPECT_FALSE(solver.tip().position_B_mm.array().isNaN().any());
+}
+
+// More arcs than memory was taken for.
+TEST(Solver, EndsWhereItsMemoryEnds) {
+  fam::Options options;
+  options.tolerance_mm = 1e-5;
+  options.reserved_arcs = 20;
+  scene::Scene scene = uniform_rod(100, slender(1000, 700), {scene::Force{100, Frame::fixed, {0, 0.1, 0}}});
+  Solver solver = kept(scene, options);
+  ASSERT_TRUE(solver.solve().converged());
+  const Vector3d held_mm = solver.tip().position_B_mm;
+  solver.set_force_N(0, {0, 50, 0});
+  const std::size_t before = allocation_count();
+  EXPECT_EQ(solver.solve().status, Status::tolerance_not_met);
+  EXPECT_EQ(allocation_count(), before);
+  EXPECT_EQ(solver.tip().position_B_mm, held_mm);
+}
+
+}  // namespace
