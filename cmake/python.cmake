@@ -25,13 +25,7 @@ target_compile_definitions(fam_python PRIVATE FAM_VERSION="${PROJECT_VERSION}")
 target_link_libraries(fam_python PRIVATE fam scene_file warnings)
 configure_file(${CMAKE_SOURCE_DIR}/python/fam.pyi ${CMAKE_BINARY_DIR}/fam.pyi COPYONLY)
 
-# They become part of a shared object. No one puts other functions in their place: they may be inlined all the same.
-set_target_properties(scene scene_file fam PROPERTIES POSITION_INDEPENDENT_CODE ON)
-if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-  foreach(library scene scene_file fam)
-    target_compile_options(${library} PRIVATE -fno-semantic-interposition)
-  endforeach()
-endif()
+set_target_properties(scene_file PROPERTIES POSITION_INDEPENDENT_CODE ON)  # part of a shared object
 
 # Where Debian's Python looks under /usr; elsewhere, `pip install .`.
 install(TARGETS fam_python LIBRARY DESTINATION lib/python3/dist-packages COMPONENT python)
