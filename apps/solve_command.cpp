@@ -1,5 +1,6 @@
 #include "apps/solve_command.h"
 
+#include "apps/derivatives.h"
 #include "scene/equilibrium_file.h"
 #include "scene/scene_file.h"
 #include "studies/compare/stopwatch.h"
@@ -79,7 +80,13 @@ CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments) {
       ->check(CLI::IsMember({"text", "json", "csv"}));
   solve->add_option("--svg", arguments.svg_path, "Write a picture of the deformed centreline to this file")
       ->check(CLI::Validator(no_name, "FILE"));
-  solve->callback([solve, &options] {
+  solve->add_flag("--derivatives", arguments.derivatives,
+                  "Add the tip's derivatives by loads, sections and a wrench at the tip to --format json");
+  solve->callback([solve, &options, &arguments] {
+    if (arguments.derivatives && (arguments.format != "json" || arguments.method != "fam"))
+      throw CLI::ValidationError("--derivatives", "needs --format json and the method fam");
+    if (arguments.derivatives && options.law == fam::Law::published)
+      throw CLI::ValidationError("--derivatives", "the law published has none");
     if (solve->count("--twist-order") > 0 && options.law != fam::Law::published)
       throw CLI::ValidationError("--twist-order", "needs --law published");
   });
@@ -106,7 +113,9 @@ int run_solve(const SolveArguments& arguments, const MethodFactory& make_method)
     studies::write_file(arguments.svg_path, picture(scene, result, method->name()));
   }
   if (arguments.format == "json") {
-    fmt::print("{}", scene::to_json(result, arguments.method, time_us));
+    const std::string json = scene::to_json(result, arguments.method, time_us);
+    const bool adds = arguments.derivatives && result.converged();
+    fmt::print("{}", adds ? with_derivatives(json, scene, arguments.fam) : json);
   } else if (result.converged()) {
     fmt::print("{}",
                arguments.format == "csv" ? scene::to_csv(result) : scene::to_text(result, method->name(), time_us));

@@ -19,6 +19,7 @@ struct SolveArguments {
   fam::Options fam;
   std::string format = "text";
   std::string svg_path;
+  bool derivatives = false;
 };
 
 // The scene, --tolerance-mm, --arcs, --law, --model.
