@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
 namespace fam {
@@ -69,11 +70,14 @@ template <class Kind>
 Kind& kind_of(scene::Scene& scene, std::size_t load) {
   if (load >= scene.loads.size())
     throw scene::SceneError(name_of(load) + ": there are " + std::to_string(scene.loads.size()) + " loads");
-  Kind* found = std::get_if<Kind>(&scene.loads[load]);
-  if (!found)
-    throw scene::SceneError(name_of(load) + ".kind = " + scene::kind_name(scene.loads[load]) + ": must be " +
-                            scene::kind_name(Kind{}));
-  return *found;
+  const char* const wanted = scene::kind_name(Kind{});
+  if (std::string_view(scene::kind_name(scene.loads[load])) != wanted)
+    throw scene::SceneError(name_of(load) + ".kind = " + scene::kind_name(scene.loads[load]) + ": must be " + wanted);
+  return std::get<Kind>(scene.loads[load]);
+}
+
+bool is_a_moment(const scene::Load& load) {
+  return std::string_view(scene::kind_name(load)) == scene::kind_name(scene::Moment{});
 }
 
 template <class Kind, class Value>
@@ -297,11 +301,9 @@ void Solver::set_tension_N(std::size_t load, double tension_N) {
 void Solver::set_at_mm(std::size_t load, double s_mm) {
   const double length_mm = scene::length_mm(impl_->scene), hair_mm = length_mm * scene::same_place_relative;
   const bool is_good = s_mm > hair_mm && s_mm <= length_mm + hair_mm;
-  if (load < impl_->scene.loads.size() && std::holds_alternative<scene::Moment>(impl_->scene.loads[load])) {
-    set_value(impl_->scene, load, &scene::Moment::at_mm, s_mm, is_good);
-  } else {
-    set_value(impl_->scene, load, &scene::Force::at_mm, s_mm, is_good);
-  }
+  const bool is_moment = load < impl_->scene.loads.size() && is_a_moment(impl_->scene.loads[load]);
+  if (is_moment) set_value(impl_->scene, load, &scene::Moment::at_mm, s_mm, is_good);
+  else set_value(impl_->scene, load, &scene::Force::at_mm, s_mm, is_good);
 }
 void Solver::set_rest_curvature_per_mm(std::size_t section, const Vector3d& rest_curvature_per_mm) {
   std::vector<scene::Section>& sections = impl_->scene.sections;

@@ -3,6 +3,7 @@
 #include "scene/load_visitor.h"
 
 #include "exact_reference/elastica.h"
+#include "fam/engine.h"
 #include "fam/solve.h"
 #include "studies/methods/registry.h"
 #include "studies/stability/planar_march.h"

@@ -38,8 +38,8 @@ Inputs inputs_at(int solve) {
 }
 
 scene::Scene with(scene::Scene scene, const Inputs& inputs) {
-  for (int i = 0; i < 2; ++i) as<scene::Tendon>(scene.loads[tendons[i]])->tension_N = inputs.tensions_N[i];
-  as<scene::Force>(scene.loads[force])->value_N = inputs.force_N;
+  for (int i = 0; i < 2; ++i) known_load<scene::Tendon>(scene.loads[tendons[i]])->tension_N = inputs.tensions_N[i];
+  known_load<scene::Force>(scene.loads[force])->value_N = inputs.force_N;
   return scene;
 }
 

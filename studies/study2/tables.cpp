@@ -46,7 +46,7 @@ std::string errors_csv(const Study2Data& data) {
       table.add({r.scene, r.method, r.status, "", "", ""});
       continue;
     }
-    table.add({r.scene, r.method, r.status, told_text_mm(r.errors_mm.back()), told_error(largest_error_mm(r)),
+    table.add({r.scene, r.method, r.status, told_text_mm(r.errors_mm.back()), told_text_mm(largest_error_mm(r)),
                fixed(largest_deflection_mm(r), 4)});
   }
   return table.csv(
