@@ -1,8 +1,11 @@
 #include "fam/response.h"
 
+#include "scene/load_visitor.h"
+
 #include "fam/skew.h"
 
 #include <limits>
+#include <string_view>
 
 namespace fam {
 namespace {
@@ -13,9 +16,12 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 Vector3d arm_of(const scene::Force& force) {
   return {0, force.offset_mm[0], force.offset_mm[1]};
 }
+// Null: of another kind, or none.
 template <class Kind>
 const Kind* load_of(const scene::Scene& scene, std::size_t load) {
-  return load < scene.loads.size() ? std::get_if<Kind>(&scene.loads[load]) : nullptr;
+  if (load >= scene.loads.size() || std::string_view(scene::kind_name(scene.loads[load])) != scene::kind_name(Kind{}))
+    return nullptr;
+  return &std::get<Kind>(scene.loads[load]);
 }
 
 }  // namespace
@@ -180,7 +186,7 @@ Eigen::Matrix<double, 6, 6> Response::compliance(double s_mm, What what) {
 Columns Response::by_load(std::size_t load, double s_mm, What what) {
   const scene::Scene& scene = *solution_.scene;
   if (load >= scene.loads.size()) return Columns::Constant(nan);
-  if (std::holds_alternative<scene::Tendon>(scene.loads[load])) return rows({Kind::tension, load}, s_mm, what);
+  if (scene::tendon_of(scene.loads[load])) return rows({Kind::tension, load}, s_mm, what);
   const auto* force = load_of<scene::Force>(scene, load);
   const auto* moment = load_of<scene::Moment>(scene, load);
   if (!force && !moment) return rows({Kind::distributed, load}, s_mm, what);

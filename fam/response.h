@@ -113,6 +113,7 @@ class Response {
   Columns strain_or_wrench(const Source& source, const Place& place, const Section& section, What what);
 
   bool acts_in(const Source& source, std::size_t span) const;
+  const scene::DistributedForce* distributed(const Source& source) const;
   bool brings_forces(const Source& source, std::size_t span) const;
   Eigen::Matrix<double, 12, 3> source_in(const Source& source, std::size_t span, std::size_t arc) const;
   // Adds what the source changes in a length of a span with such a distal end.

@@ -1,6 +1,8 @@
 // Where the sources of fam/response.h act, and the slopes that they give to the arcs there.
 #include "fam/response.h"
 
+#include "scene/load_visitor.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -40,12 +42,23 @@ bool Response::acts_in(const Source& source, std::size_t i) const {
     case Kind::stiffness: return section_of_span_[i] == source.index;
     case Kind::tension: return middle_mm < std::get<scene::Tendon>(solution_.scene->loads[source.index]).to_mm;
     case Kind::distributed:
-      if (const auto* force = std::get_if<scene::DistributedForce>(&solution_.scene->loads[source.index])) {
+      if (const scene::DistributedForce* force = distributed(source)) {
         return force->from_mm < middle_mm && middle_mm < force->to_mm;
       }
       return span.stiffness.mass_per_length_kg_per_m > 0;
     default: return false;
   }
+}
+
+// Null: of gravity.
+const scene::DistributedForce* Response::distributed(const Source& source) const {
+  return scene::visit_load(
+      solution_.scene->loads[source.index],
+      [](const scene::Force&) -> const scene::DistributedForce* { return nullptr; },
+      [](const scene::Moment&) -> const scene::DistributedForce* { return nullptr; },
+      [](const scene::DistributedForce& force) { return &force; },
+      [](const scene::Gravity&) -> const scene::DistributedForce* { return nullptr; },
+      [](const scene::Tendon&) -> const scene::DistributedForce* { return nullptr; });
 }
 
 bool Response::brings_forces(const Source& source, std::size_t i) const {
@@ -63,7 +76,7 @@ void Response::add_source(const Source& source, std::size_t i, double length_mm,
     change.tendon_arm_mm = {0, offset_mm[0], offset_mm[1]};
   }
   if (source.kind != Kind::distributed) return;
-  const auto* force = std::get_if<scene::DistributedForce>(&solution_.scene->loads[source.index]);
+  const scene::DistributedForce* force = distributed(source);
   if (force && force->frame == scene::Frame::follower) {
     change.follower_S_N += length_mm * Matrix3d::Identity();
   } else {

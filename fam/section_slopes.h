@@ -42,6 +42,16 @@ struct TendonSeries {
   }
 };
 
+// Coefficients of three changes of the wrench.
+template <std::size_t terms>
+struct ConstantSeries {
+  std::array<Matrix3d, terms> moment, force;
+  ConstantSeries() {
+    moment.fill(Matrix3d::Zero());
+    force.fill(Matrix3d::Zero());
+  }
+};
+
 template <bool with_shear, std::size_t terms>
 class SectionSlopes {
  public:
@@ -67,49 +77,29 @@ class SectionSlopes {
     }
   }
 
-  // Coefficient k of the strain's change from those of the moment's and the force's up to it.
-  template <int N>
-  void strain(std::size_t k, const std::array<Slopes3<N>, terms>& moment, const std::array<Slopes3<N>, terms>& force,
-              Slopes3<N>& rotation, Slopes3<N>& translation) const {
-    if (arc_.tendons.empty()) {
-      for (int i = 0; i < 3; ++i) rotation.row(i) = arc_.angular_compliance[i] * moment[k].row(i);
-      if constexpr (with_shear) {
-        for (int i = 0; i < 3; ++i) translation.row(i) = arc_.linear_compliance[i] * force[k].row(i);
-      }
-      return;
-    }
-    rotation.setZero();
-    if constexpr (with_shear) translation.setZero();
-    for (std::size_t j = 0; j <= k; ++j) {
-      const Square& A = compliance_[j];
-      rotation += A.template topLeftCorner<3, 3>() * moment[k - j];
-      if constexpr (with_shear) {
-        rotation += A.template topRightCorner<3, 3>() * force[k - j];
-        translation += A.template bottomLeftCorner<3, 3>() * moment[k - j];
-        translation += A.template bottomRightCorner<3, 3>() * force[k - j];
-      }
-    }
-  }
+  bool has_tendons() const { return !arc_.tendons.empty(); }
+  const Vector3d& angular_compliance() const { return arc_.angular_compliance; }
+  const Vector3d& linear_compliance() const { return arc_.linear_compliance; }
+  const Square& compliance(std::size_t k) const { return compliance_[k]; }        // A; only with tendons
+  const Square& tendon_stiffness(std::size_t k) const { return stiffness_[k]; }  // S; only with tendons
 
-  // Coefficient k of the change of the wrench that a changed constant is.
-  template <int N>
-  void add_constant(const ArcChange<N>& change, std::size_t k, Slopes3<N>& moment, Slopes3<N>& force) const {
-    if (N != 3 || change.constant == Constant::none) return;
-    if (change.constant == Constant::tension) {
-      const TendonSeries<terms> tendon(change.tendon_arm_mm, rotation_, translation_);
-      moment.col(0) -= change.tendon_arm_mm.cross(tendon.direction[k]);
-      force.col(0) -= tendon.direction[k];
-      return;
+  // The changes of the wrench that a changed constant is.
+  ConstantSeries<terms> constant_series(Constant constant, const Vector3d& tendon_arm_mm) const {
+    ConstantSeries<terms> result;
+    if (constant == Constant::tension) {
+      const TendonSeries<terms> tendon(tendon_arm_mm, rotation_, translation_);
+      for (std::size_t k = 0; k < terms; ++k) {
+        result.moment[k].col(0) = -tendon_arm_mm.cross(tendon.direction[k]);
+        result.force[k].col(0) = -tendon.direction[k];
+      }
+    } else if (constant == Constant::stiffness) {
+      for (std::size_t k = 0; k < terms; ++k) result.moment[k].diagonal() = -rotation_[k] / arc_.length_mm;
+      result.moment[0].diagonal() += arc_.rest_rotation / arc_.length_mm;
+    } else if (constant == Constant::rest_curvature) {
+      result.moment[0].diagonal() = arc_.length_mm * arc_.angular_compliance.cwiseInverse();
     }
-    for (int axis = 0; axis < 3; ++axis) {
-      const double strain = rotation_[k][axis] - (k == 0 ? arc_.rest_rotation[axis] : 0);
-      if (change.constant == Constant::stiffness) moment(axis, axis) -= strain / arc_.length_mm;
-      else if (k == 0) moment(axis, axis) += arc_.length_mm / arc_.angular_compliance[axis];
-    }
+    return result;
   }
-
-  // S at the distal end; zero without tendons is not written.
-  const Square& tendon_stiffness() const { return stiffness_[0]; }
 
  private:
   void add(const BasicTendon<3>& tendon) {

@@ -1,5 +1,5 @@
 // The sixth-order step (fam/arc_series.h), differentiated: the slopes of its series obey the recursion's own product
-// rule, those of the Magnus expansion the brackets'.
+// rule, those of the Magnus expansion the brackets'. Two changes at a time, which every processor has registers for.
 #pragma once
 
 #include "fam/arc_series.h"
@@ -7,129 +7,199 @@
 
 namespace fam {
 
-// a += b x c, slopes of a vector product: of the second factor, or of the first (a -= c x b then).
-template <int N>
-void add_cross(Slopes3<N>& a, const Vector3d& b, const Slopes3<N>& c) {
-  a.row(0) += b[1] * c.row(2) - b[2] * c.row(1);
-  a.row(1) += b[2] * c.row(0) - b[0] * c.row(2);
-  a.row(2) += b[0] * c.row(1) - b[1] * c.row(0);
+// Two changes of a number and of a vector.
+using Pair = double __attribute__((vector_size(16)));
+struct Pair3 {
+  Pair x, y, z;
+  Pair3& operator+=(const Pair3& b) { return x += b.x, y += b.y, z += b.z, *this; }
+};
+inline Pair3 operator+(const Pair3& a, const Pair3& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
-template <int N>
-Slopes3<N> cross(const Vector3d& a, const Slopes3<N>& b) {
-  Slopes3<N> result;
-  result.row(0) = a[1] * b.row(2) - a[2] * b.row(1);
-  result.row(1) = a[2] * b.row(0) - a[0] * b.row(2);
-  result.row(2) = a[0] * b.row(1) - a[1] * b.row(0);
-  return result;
+inline Pair3 operator*(double a, const Pair3& b) {
+  return {a * b.x, a * b.y, a * b.z};
+}
+inline Pair3 cross(const Vector3d& a, const Pair3& b) {
+  return {a[1] * b.z - a[2] * b.y, a[2] * b.x - a[0] * b.z, a[0] * b.y - a[1] * b.x};
+}
+inline Pair3 cross(const Pair3& a, const Vector3d& b) {
+  return {a.y * b[2] - a.z * b[1], a.z * b[0] - a.x * b[2], a.x * b[1] - a.y * b[0]};
+}
+template <class Matrix>
+Pair3 product(const Matrix& A, const Pair3& b) {
+  return {A(0, 0) * b.x + A(0, 1) * b.y + A(0, 2) * b.z, A(1, 0) * b.x + A(1, 1) * b.y + A(1, 2) * b.z,
+          A(2, 0) * b.x + A(2, 1) * b.y + A(2, 2) * b.z};
+}
+// Columns first and first + 1; beyond the last there are zeros.
+template <class Slopes>
+Pair3 columns(const Slopes& from, int first) {
+  const auto row = [&](int i) -> Pair { return {from(i, first), first + 1 < from.cols() ? from(i, first + 1) : 0}; };
+  return {row(0), row(1), row(2)};
+}
+template <class Slopes>
+void set_columns(const Pair3& from, int first, Slopes&& to) {
+  const Pair rows[] = {from.x, from.y, from.z};
+  for (int i = 0; i < 3; ++i) {
+    to(i, first) = rows[i][0];
+    if (first + 1 < to.cols()) to(i, first + 1) = rows[i][1];
+  }
 }
 
-// A screw's slopes, and those of a bracket.
-template <int N>
-struct ScrewSlopes {
-  Slopes3<N> rotation, translation;
+struct ScrewPair {
+  Pair3 rotation, translation;
 };
-template <int N>
-ScrewSlopes<N> operator+(const ScrewSlopes<N>& a, const ScrewSlopes<N>& b) {
+inline ScrewPair operator+(const ScrewPair& a, const ScrewPair& b) {
   return {a.rotation + b.rotation, a.translation + b.translation};
 }
-template <int N>
-ScrewSlopes<N> operator*(double factor, const ScrewSlopes<N>& a) {
+inline ScrewPair operator*(double factor, const ScrewPair& a) {
   return {factor * a.rotation, factor * a.translation};
 }
-template <int N>
-ScrewSlopes<N> bracket_slopes(const Screw& a, const ScrewSlopes<N>& da, const Screw& b, const ScrewSlopes<N>& db) {
-  ScrewSlopes<N> result{cross<N>(a.rotation, db.rotation), cross<N>(a.rotation, db.translation)};
-  add_cross<N>(result.rotation, -b.rotation, da.rotation);
-  add_cross<N>(result.translation, -b.translation_mm, da.rotation);
-  add_cross<N>(result.translation, -b.rotation, da.translation);
-  add_cross<N>(result.translation, a.translation_mm, db.rotation);
-  return result;
+inline ScrewPair bracket(const Screw& a, const ScrewPair& da, const Screw& b, const ScrewPair& db) {
+  return {cross(da.rotation, b.rotation) + cross(a.rotation, db.rotation),
+          cross(da.rotation, b.translation_mm) + cross(a.rotation, db.translation) +
+              cross(da.translation, b.rotation) + cross(a.translation_mm, db.rotation)};
 }
 
-template <int N, std::size_t terms>
-struct SeriesSlopes {
-  std::array<Slopes3<N>, terms> rotation, moment_Nmm, translation_mm, force_N;
-};
+// An arc's series, and what the slopes ask of it more than once.
+template <bool with_shear, std::size_t terms>
+class SeriesSlopes {
+ public:
+  using Series = RodSeries<double, 3, terms>;
 
-template <bool with_shear, int N, std::size_t terms>
-SeriesSlopes<N, terms> series_slopes(const RodSeries<double, 3, terms>& s,
-                                     const SectionSlopes<with_shear, terms>& section,
-                                     const ArcForces<double, 3>* forces, const ArcChange<N>& change) {
-  SeriesSlopes<N, terms> d;
-  std::array<Slopes3<N>, terms> fixed, felt_moment, felt_force;  // felt: with what a constant's change is worth
-  std::array<Vector3d, terms> fixed_N;
-  const bool constant = change.constant != Constant::none;
-  const auto set_strain = [&](std::size_t k) {
-    if (!constant) return section.strain(k, d.moment_Nmm, d.force_N, d.rotation[k], d.translation_mm[k]);
-    felt_moment[k] = d.moment_Nmm[k];
-    felt_force[k] = d.force_N[k];
-    section.add_constant(change, k, felt_moment[k], felt_force[k]);
-    section.strain(k, felt_moment, felt_force, d.rotation[k], d.translation_mm[k]);
-  };
-  d.force_N[0] = change.force_N;
-  d.moment_Nmm[0] = change.moment_Nmm;
-  set_strain(0);
-  if (forces) {
-    fixed_N[0] = forces->fixed_D_N;
-    fixed[0] = change.fixed_D_N;
+  SeriesSlopes(const BasicArcConstants<3>& arc, const Series& series, const ArcForces<double, 3>* forces)
+      : s_(series), section_(arc, series.rotation, series.translation_mm), forces_(forces) {
+    if (forces) {
+      fixed_N_[0] = forces->fixed_D_N;
+      for (std::size_t k = 0; k + 1 < terms; ++k) {
+        fixed_N_[k + 1].setZero();
+        for (std::size_t j = 0; j <= k; ++j) fixed_N_[k + 1] += s_.rotation[j].cross(fixed_N_[k - j]);
+        fixed_N_[k + 1] /= static_cast<double>(k + 1);
+      }
+    }
+    a1_ = {weighted(s_.rotation, a1_weights), s_.translation_mm[0]};
+    a2_.rotation = weighted(s_.rotation, a2_weights, 1);
+    a3_.rotation = weighted(s_.rotation, a3_weights, 2);
+    if constexpr (with_shear) {
+      a1_.translation_mm = weighted(s_.translation_mm, a1_weights);
+      a2_.translation_mm = weighted(s_.translation_mm, a2_weights, 1);
+      a3_.translation_mm = weighted(s_.translation_mm, a3_weights, 2);
+    }
+    const Screw b = fam::bracket(a1_, a2_);
+    inner_ = (1 / 360.) * a3_ + (-1 / 720.) * b;
+    outer_ = (-1 / 240.) * (a3_ + b);
+    middle_ = fam::bracket(a1_, inner_);
   }
-  for (std::size_t k = 0; k + 1 < terms; ++k) {
-    Slopes3<N> force = Slopes3<N>::Zero(), moment = Slopes3<N>::Zero();
+
+  // Slopes of the screw; with distributed forces of the wrench at the proximal end.
+  struct Slopes {
+    ScrewPair screw;
+    Pair3 force, moment;
+  };
+  template <int N>
+  Slopes pair(const ArcChange<N>& change, const ConstantSeries<terms>* constant, int first) const {
+    Terms d;
+    d.force[0] = columns(change.force_N, first);
+    d.moment[0] = columns(change.moment_Nmm, first);
+    if (forces_) d.fixed[0] = columns(change.fixed_D_N, first);
+    set_strain(d, constant, first, 0);
+    for (std::size_t k = 0; k + 1 < terms; ++k) {
+      advance(d, k);
+      if (forces_ && k == 0) d.force[1] += columns(change.follower_S_N, first);
+      set_strain(d, constant, first, k + 1);
+    }
+    Slopes slopes{magnus(d), {}, {}};
+    if (forces_) {
+      slopes.force = d.force[0];
+      slopes.moment = d.moment[0];
+      for (std::size_t k = 1; k < terms; ++k) slopes.force += d.force[k], slopes.moment += d.moment[k];
+    }
+    return slopes;
+  }
+
+  ConstantSeries<terms> constant_series(Constant constant, const Vector3d& arm_mm) const {
+    return section_.constant_series(constant, arm_mm);
+  }
+
+ private:
+  struct Terms {
+    std::array<Pair3, terms> rotation, translation, force, moment, fixed;
+  };
+
+  // The strain under the wrench and what a changed constant is worth.
+  void set_strain(Terms& d, const ConstantSeries<terms>* constant, int first, std::size_t k) const {
+    if (!section_.has_tendons()) {
+      Pair3 force = d.force[k], moment = d.moment[k];
+      if (constant) force += columns(constant->force[k], first), moment += columns(constant->moment[k], first);
+      const Vector3d &c = section_.angular_compliance(), &l = section_.linear_compliance();
+      d.rotation[k] = {c[0] * moment.x, c[1] * moment.y, c[2] * moment.z};
+      if constexpr (with_shear) d.translation[k] = {l[0] * force.x, l[1] * force.y, l[2] * force.z};
+      return;
+    }
+    Pair3 rotation{}, translation{};
+    for (std::size_t j = 0; j <= k; ++j) {
+      Pair3 force = d.force[k - j], moment = d.moment[k - j];
+      if (constant) force += columns(constant->force[k - j], first), moment += columns(constant->moment[k - j], first);
+      const auto& A = section_.compliance(j);
+      rotation += product(A.template topLeftCorner<3, 3>(), moment);
+      if constexpr (with_shear) {
+        rotation += product(A.template topRightCorner<3, 3>(), force);
+        translation += product(A.template bottomLeftCorner<3, 3>(), moment);
+        translation += product(A.template bottomRightCorner<3, 3>(), force);
+      }
+    }
+    d.rotation[k] = rotation;
+    if constexpr (with_shear) d.translation[k] = translation;
+  }
+
+  // Coefficient k + 1 of the wrench and the fixed force, the strain's k-th being known.
+  void advance(Terms& d, std::size_t k) const {
+    Pair3 force{}, moment{}, fixed{};
     for (std::size_t j = 0; j <= k; ++j) {
       const std::size_t i = k - j;
-      add_cross<N>(force, s.rotation[i], d.force_N[j]);
-      add_cross<N>(force, -s.force_N[i], d.rotation[j]);
-      add_cross<N>(moment, s.rotation[i], d.moment_Nmm[j]);
-      add_cross<N>(moment, -s.moment_Nmm[i], d.rotation[j]);
+      force += cross(s_.rotation[i], d.force[j]) + cross(d.rotation[j], s_.force_N[i]);
+      moment += cross(s_.rotation[i], d.moment[j]) + cross(d.rotation[j], s_.moment_Nmm[i]);
       if constexpr (with_shear) {
-        add_cross<N>(moment, s.translation_mm[i], d.force_N[j]);
-        add_cross<N>(moment, -s.force_N[i], d.translation_mm[j]);
+        moment += cross(s_.translation_mm[i], d.force[j]) + cross(d.translation[j], s_.force_N[i]);
       }
+      if (forces_) fixed += cross(s_.rotation[i], d.fixed[j]) + cross(d.rotation[j], fixed_N_[i]);
     }
-    if constexpr (!with_shear) add_cross<N>(moment, s.translation_mm[0], d.force_N[k]);
+    if constexpr (!with_shear) moment += cross(s_.translation_mm[0], d.force[k]);
     const double share = 1.0 / static_cast<double>(k + 1);
-    if (forces) {
-      force += fixed[k];
-      if (k == 0) force += change.follower_S_N;
-      fixed_N[k + 1].setZero();
-      fixed[k + 1].setZero();
-      for (std::size_t j = 0; j <= k; ++j) {
-        fixed_N[k + 1] += share * s.rotation[j].cross(fixed_N[k - j]);
-        add_cross<N>(fixed[k + 1], share * s.rotation[k - j], fixed[j]);
-        add_cross<N>(fixed[k + 1], -share * fixed_N[k - j], d.rotation[j]);
-      }
+    if (forces_) {
+      force += d.fixed[k];
+      d.fixed[k + 1] = share * fixed;
     }
-    d.force_N[k + 1] = share * force;
-    d.moment_Nmm[k + 1] = share * moment;
-    set_strain(k + 1);
+    d.force[k + 1] = share * force;
+    d.moment[k + 1] = share * moment;
   }
-  return d;
-}
 
-// Slopes of magnus().
-template <bool with_shear, int N, std::size_t terms>
-ScrewSlopes<N> magnus_slopes(const RodSeries<double, 3, terms>& s, const SeriesSlopes<N, terms>& d) {
-  const Slopes3<N> zero = Slopes3<N>::Zero();
-  Screw a1{weighted(s.rotation, a1_weights), s.translation_mm[0]};
-  Screw a2{weighted(s.rotation, a2_weights, 1), Vector3d::Zero()},
-      a3{weighted(s.rotation, a3_weights, 2), Vector3d::Zero()};
-  ScrewSlopes<N> di{weighted(d.rotation, strain_weights), zero}, d1{weighted(d.rotation, a1_weights), zero},
-      d2{weighted(d.rotation, a2_weights, 1), zero}, d3{weighted(d.rotation, a3_weights, 2), zero};
-  if constexpr (with_shear) {
-    a1.translation_mm = weighted(s.translation_mm, a1_weights);
-    a2.translation_mm = weighted(s.translation_mm, a2_weights, 1);
-    a3.translation_mm = weighted(s.translation_mm, a3_weights, 2);
-    di.translation = weighted(d.translation_mm, strain_weights);
-    d1.translation = weighted(d.translation_mm, a1_weights);
-    d2.translation = weighted(d.translation_mm, a2_weights, 1);
-    d3.translation = weighted(d.translation_mm, a3_weights, 2);
+  template <std::size_t count>
+  static Pair3 sum(const std::array<Pair3, terms>& c, const std::array<double, count>& weights, std::size_t from = 0) {
+    Pair3 result = weights[0] * c[from];
+    for (std::size_t k = 1; k < count; ++k) result += weights[k] * c[from + k];
+    return result;
   }
-  const Screw b = bracket(a1, a2);
-  const ScrewSlopes<N> db = bracket_slopes(a1, d1, a2, d2);
-  const Screw inner = (1 / 360.) * a3 + (-1 / 720.) * b, middle = bracket(a1, inner);
-  const ScrewSlopes<N> d_inner = (1 / 360.) * d3 + (-1 / 720.) * db, d_middle = bracket_slopes(a1, d1, inner, d_inner);
-  return di + (1 / 12.) * db + bracket_slopes(a1, d1, middle, d_middle) +
-         bracket_slopes(a2, d2, (-1 / 240.) * (a3 + b), (-1 / 240.) * (d3 + db));
-}
+
+  ScrewPair magnus(const Terms& d) const {
+    ScrewPair whole{sum(d.rotation, strain_weights), {}}, d1{sum(d.rotation, a1_weights), {}},
+        d2{sum(d.rotation, a2_weights, 1), {}}, d3{sum(d.rotation, a3_weights, 2), {}};
+    if constexpr (with_shear) {
+      whole.translation = sum(d.translation, strain_weights);
+      d1.translation = sum(d.translation, a1_weights);
+      d2.translation = sum(d.translation, a2_weights, 1);
+      d3.translation = sum(d.translation, a3_weights, 2);
+    }
+    const ScrewPair b = bracket(a1_, d1, a2_, d2);
+    const ScrewPair middle = bracket(a1_, d1, inner_, (1 / 360.) * d3 + (-1 / 720.) * b);
+    return whole + (1 / 12.) * b + bracket(a1_, d1, middle_, middle) +
+           bracket(a2_, d2, outer_, (-1 / 240.) * (d3 + b));
+  }
+
+  const Series& s_;
+  SectionSlopes<with_shear, terms> section_;
+  const ArcForces<double, 3>* forces_;
+  std::array<Vector3d, terms> fixed_N_;
+  Screw a1_, a2_, a3_, inner_, outer_, middle_;
+};
 
 }  // namespace fam

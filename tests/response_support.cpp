@@ -1,6 +1,7 @@
 #include "response_support.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -30,6 +31,9 @@ SolvedRod::SolvedRod(Scene scene, std::vector<int> arcs_per_span, fam::Law law)
   rod_->set(loads_.way(), arcs_per_span_, law, model_of(scene_));
   converged_ = rod_->run() == scene::Status::converged;
   const fam::SolvedRod<3> solution = solved();
+  if (!converged_) return;
+  shape_ = std::make_unique<fam::BasicShape<3>>();
+  shape_->set(solution);
   response_.reserve(solution.arcs.size(), spans_.size(), scene::max_tendon_offsets);
   response_.set(
       {&scene_, spans_, arcs_per_span_, solution.poses, solution.distal_wrenches_S, solution.law, solution.model});
@@ -41,9 +45,7 @@ fam::BasicShape<3>::Section SolvedRod::section(double s_mm) const {
   while (i + 1 < spans_.size() && s_mm > spans_[i].end_mm * (1 + 1e-12)) ++i;
   const double arcs = (s_mm - spans_[i].start_mm) / spans_[i].length_mm() * arcs_per_span_[i];
   const double last = std::clamp(std::ceil(arcs - 1e-9), 1.0, static_cast<double>(arcs_per_span_[i]));
-  fam::BasicShape<3> shape;
-  shape.set(solved());
-  return shape.section(solved().spans[i].first_arc + static_cast<int>(last) - 1, std::min(1.0, arcs - last + 1));
+  return shape_->section(solved().spans[i].first_arc + static_cast<int>(last) - 1, std::min(1.0, arcs - last + 1));
 }
 
 Scene changed(Scene scene, const fam::Parameter& parameter, double change) {
@@ -125,9 +127,31 @@ Vector6 derivative(fam::Response& response, const fam::Parameter& parameter, dou
 
 namespace {
 
-Vector6 change_between(const SolvedRod& more, const SolvedRod& less, double s_mm, What what) {
-  if (!more.converged() || !less.converged()) return Vector6::Constant(std::numeric_limits<double>::quiet_NaN());
-  const auto a = more.section(s_mm), b = less.section(s_mm);
+bool is_slack_tendon(const Scene& scene, const fam::Parameter& parameter) {
+  if (parameter.kind != Kind::load) return false;
+  const auto* tendon = std::get_if<scene::Tendon>(&scene.loads[parameter.index]);
+  return tendon && tendon->tension_N == 0;
+}
+
+}  // namespace
+
+Differences::Differences(const SolvedRod& rod, const fam::Parameter& parameter)
+    : step_(step_of(rod.scene(), parameter)), one_sided_(is_slack_tendon(rod.scene(), parameter)) {
+  if (one_sided_) step_ *= 0.1;
+  rods_.reserve(4);
+  const auto add = [&](double change) {
+    rods_.emplace_back(changed(rod.scene(), parameter, change), rod.arcs_per_span(), rod.law());
+  };
+  for (const double share : one_sided_ ? std::array{1.0, 0.0, 0.5, 0.25} : std::array{1.0, -1.0, 0.5, -0.5}) {
+    add(share * step_);
+  }
+}
+
+Vector6 Differences::between(std::size_t more, std::size_t less, double s_mm, What what) const {
+  if (!rods_[more].converged() || !rods_[less].converged()) {
+    return Vector6::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+  const auto a = rods_[more].section(s_mm), b = rods_[less].section(s_mm);
   Vector6 result;
   if (what == What::pose) {
     result << a.pose.position_B_mm - b.pose.position_B_mm,
@@ -138,32 +162,15 @@ Vector6 change_between(const SolvedRod& more, const SolvedRod& less, double s_mm
   } else {
     result << a.own_B.force_N - b.own_B.force_N, a.own_B.moment_Nmm - b.own_B.moment_Nmm;
   }
-  return result;
+  return result / step_;
 }
 
-bool is_slack_tendon(const Scene& scene, const fam::Parameter& parameter) {
-  if (parameter.kind != Kind::load) return false;
-  const auto* tendon = std::get_if<scene::Tendon>(&scene.loads[parameter.index]);
-  return tendon && tendon->tension_N == 0;
-}
-
-}  // namespace
-
-// Of a slack tendon, which cannot push, towards more tension: three steps.
-Vector6 difference(const SolvedRod& rod, const fam::Parameter& parameter, double s_mm, What what) {
-  const auto solved = [&](double change) {
-    return SolvedRod(changed(rod.scene(), parameter, change), rod.arcs_per_span(), rod.law());
-  };
-  double step = step_of(rod.scene(), parameter);
-  if (is_slack_tendon(rod.scene(), parameter)) {
-    step *= 0.1;
-    const SolvedRod start = solved(0);
-    const auto forward = [&](double h) -> Vector6 { return change_between(solved(h), start, s_mm, what) / h; };
-    const Vector6 wide = forward(step), half = forward(step / 2), quarter = forward(step / 4);
-    return (4 * (2 * quarter - half) - (2 * half - wide)) / 3;
-  }
-  const auto central = [&](double h) -> Vector6 { return change_between(solved(h), solved(-h), s_mm, what) / (2 * h); };
-  return (4 * central(step / 2) - central(step)) / 3;
+// Extrapolated: of the error all but the fourth power of the step, one-sided the third, is gone.
+Vector6 Differences::at(double s_mm, What what) const {
+  if (!one_sided_) return (4 * between(2, 3, s_mm, what) - between(0, 1, s_mm, what) / 2) / 3;
+  const Vector6 wide = between(0, 1, s_mm, what), half = 2 * between(2, 1, s_mm, what),
+                quarter = 4 * between(3, 1, s_mm, what);
+  return (4 * (2 * quarter - half) - (2 * half - wide)) / 3;
 }
 
 }  // namespace support

@@ -42,6 +42,7 @@ class SolvedRod {
   std::vector<int> arcs_per_span_;
   fam::Law law_;
   std::unique_ptr<fam::BasicBoundaryValue<3>> rod_;
+  std::unique_ptr<fam::BasicShape<3>> shape_;
   fam::Response response_;
   bool converged_;
 };
@@ -54,7 +55,19 @@ double step_of(const scene::Scene& scene, const fam::Parameter& parameter);
 std::vector<fam::Parameter> parameters_of(const scene::Scene& scene);
 
 Vector6 derivative(fam::Response& response, const fam::Parameter& parameter, double s_mm, What what);
-// NaN where a changed rod is not solved.
-Vector6 difference(const SolvedRod& rod, const fam::Parameter& parameter, double s_mm, What what);
+// Central differences by a parameter; by a slack tendon, which cannot push, towards more tension.
+class Differences {
+ public:
+  Differences(const SolvedRod& rod, const fam::Parameter& parameter);
+  // NaN where a changed rod is not solved.
+  Vector6 at(double s_mm, What what) const;
+
+ private:
+  Vector6 between(std::size_t more, std::size_t less, double s_mm, What what) const;
+
+  double step_;
+  bool one_sided_;
+  std::vector<SolvedRod> rods_;  // step, -step, step/2, -step/2; one-sided: step, 0, step/2, step/4
+};
 
 }  // namespace support
