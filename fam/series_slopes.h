@@ -33,7 +33,7 @@ Pair3 product(const Matrix& A, const Pair3& b) {
 // Columns first and first + 1; beyond the last there are zeros.
 template <class Slopes>
 Pair3 columns(const Slopes& from, int first) {
-  const auto row = [&](int i) -> Pair { return {from(i, first), first + 1 < from.cols() ? from(i, first + 1) : 0}; };
+  const auto row = [&](int i) { return Pair{from(i, first), first + 1 < from.cols() ? from(i, first + 1) : 0}; };
   return {row(0), row(1), row(2)};
 }
 template <class Slopes>
