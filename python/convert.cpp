@@ -84,11 +84,6 @@ double number_of(py::handle value, const char* list, py::ssize_t index, const ch
   refuse(place(list, index, field), value, "must be a number");
 }
 
-std::size_t index_of(py::ssize_t index, const char* list) {
-  if (index < 0) throw scene::SceneError(place(list, index, "") + ": there is none");
-  return static_cast<std::size_t>(index);
-}
-
 int component_named(py::handle name, bool of_tendon) {
   if (!PyUnicode_Check(name.ptr())) return -1;
   const auto is = [&](const char* other) { return PyUnicode_CompareWithASCIIString(name.ptr(), other) == 0; };

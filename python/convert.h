@@ -28,8 +28,6 @@ fam::Options options_of(const Keywords& keywords);
 // Three numbers: a numpy array, a list, a tuple. Of `scene: list[index].field` in the message.
 Eigen::Vector3d vector_of(py::handle value, const char* list, py::ssize_t index, const char* field);
 double number_of(py::handle value, const char* list, py::ssize_t index, const char* field);
-// An index that is negative is none of the library's.
-std::size_t index_of(py::ssize_t index, const char* list);
 
 // 0, 1, 2 of "x", "y", "z"; 0 of "tension", which a tendon has, and only a tendon; else -1.
 int component_named(py::handle name, bool of_tendon);

@@ -47,6 +47,11 @@ double KeptSolver::on_rod(double s_mm) const {
   return std::clamp(s_mm, 0.0, length_mm_);
 }
 
+std::size_t KeptSolver::not_negative(py::ssize_t index, py::ssize_t count, const char* list, const char* what) {
+  if (index < 0) throw scene::SceneError(fmt::format("scene: {}[{}]: there are {} {}", list, index, count, what));
+  return static_cast<std::size_t>(index);
+}
+
 std::size_t KeptSolver::index_below(py::ssize_t index, py::ssize_t count, const char* what) {
   if (index < 0 || index >= count)
     throw py::index_error(fmt::format("{} {}: the scene has {}, counted from 0", what, index, count));

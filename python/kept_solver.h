@@ -32,6 +32,11 @@ class KeptSolver {
   // An index of C++; raises IndexError.
   std::size_t load(py::ssize_t index) const { return index_below(index, loads_, "load"); }
   std::size_t section(py::ssize_t index) const { return index_below(index, sections_, "section"); }
+  // An index for the set_...: what is too large the library refuses, a negative one with the same words.
+  std::size_t load_to_set(py::ssize_t index) const { return not_negative(index, loads_, "loads", "loads"); }
+  std::size_t section_to_set(py::ssize_t index) const {
+    return not_negative(index, sections_, "rod.sections", "sections");
+  }
   bool is_tendon(std::size_t load) const;
   // Of a force or a moment; raises ValueError.
   std::size_t point_load(py::ssize_t index) const;
@@ -47,6 +52,7 @@ class KeptSolver {
     Busy& operator=(const Busy&) = delete;
   };
 
+  static std::size_t not_negative(py::ssize_t index, py::ssize_t count, const char* list, const char* what);
   static std::size_t index_below(py::ssize_t index, py::ssize_t count, const char* what);
   [[noreturn]] static void raise_busy();
   [[noreturn]] static void raise_not_solved();

@@ -36,12 +36,12 @@ Outcome solve(KeptSolver& kept, py::handle start) {
   return {outcome.status, outcome.load_steps, outcome.newton_steps, outcome.message};
 }
 
-// One of the set_... of a vector.
+// One of the set_... of a load's vector.
 template <auto set>
-auto vector_setter(const char* list, const char* field) {
-  return [list, field](KeptSolver& kept, py::ssize_t index, py::handle value) {
+auto vector_setter(const char* field) {
+  return [field](KeptSolver& kept, py::ssize_t load, py::handle value) {
     Solver& solver = kept.use();
-    (solver.*set)(index_of(index, list), vector_of(value, list, index, field));
+    (solver.*set)(kept.load_to_set(load), vector_of(value, "loads", load, field));
   };
 }
 
@@ -49,7 +49,7 @@ template <auto set>
 auto number_setter(const char* field) {
   return [field](KeptSolver& kept, py::ssize_t load, py::handle value) {
     Solver& solver = kept.use();
-    (solver.*set)(index_of(load, "loads"), number_of(value, "loads", load, field));
+    (solver.*set)(kept.load_to_set(load), number_of(value, "loads", load, field));
   };
 }
 
@@ -92,7 +92,7 @@ void add_outcome(py::module_& module) {
 
 void add_setters(py::class_<KeptSolver>& solver) {
   const auto vector = [&]<auto set>(const char* name, const char* field, const char* words) {
-    solver.def(name, vector_setter<set>("loads", field), py::arg("load"), py::arg("value"), words);
+    solver.def(name, vector_setter<set>(field), py::arg("load"), py::arg("value"), words);
   };
   vector.operator()<&Solver::set_force_N>("set_force_N", ".value_N",
                                           "set_force_N(load, value)\n\nvalue: (3,), N, of a force, in its frame");
@@ -109,9 +109,13 @@ void add_setters(py::class_<KeptSolver>& solver) {
            "set_tension_N(load, value)\n\nvalue: N, >= 0, of a tendon")
       .def("set_at_mm", number_setter<&Solver::set_at_mm>(".at"), py::arg("load"), py::arg("value"),
            "set_at_mm(load, value)\n\nvalue: mm from the clamp, where a force or a moment acts from now on")
-      .def("set_rest_curvature_per_mm",
-           vector_setter<&Solver::set_rest_curvature_per_mm>("rod.sections", ".rest_curvature_per_mm"),
-           py::arg("section"), py::arg("value"),
+      .def(
+          "set_rest_curvature_per_mm",
+          [](KeptSolver& kept, py::ssize_t section, py::handle value) {
+            kept.use().set_rest_curvature_per_mm(
+                kept.section_to_set(section), vector_of(value, "rod.sections", section, ".rest_curvature_per_mm"));
+          },
+          py::arg("section"), py::arg("value"),
            "set_rest_curvature_per_mm(section, value)\n\nvalue: (3,), 1/mm: torsion, bending about y, about z");
 }
 

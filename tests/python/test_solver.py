@@ -93,10 +93,12 @@ REFUSED = [
     ("set_tension_N", (TENDON, "3"), "scene: loads[1].tension_N = '3': must be a number"),
     ("set_tension_N", (TENDON, -3), "scene: loads[1].tension_N = -3: must be >= 0"),
     ("set_at_mm", (MOMENT, 41), "scene: loads[3].at = 41: must lie on the rod, 0 < s <= 40 mm"),
-    ("set_at_mm", (MOMENT, math.nan), None), ("set_at_mm", (TENDON, 20), None), ("set_force_N", (9, [0, 0, 0]), None),
-    ("set_force_N", (-1, [0, 0, 0]), None), ("set_force_N", (TENDON, [0, 0, 0]), None),
+    ("set_at_mm", (MOMENT, math.nan), None), ("set_at_mm", (TENDON, 20), None),
+    ("set_force_N", (9, [0, 0, 0]), "scene: loads[9]: there are 5 loads"),
+    ("set_force_N", (-1, [0, 0, 0]), "scene: loads[-1]: there are 5 loads"), ("set_force_N", (TENDON, [0, 0, 0]), None),
     ("set_moment_Nmm", (FORCE, [0, 0, 0]), None), ("set_tension_N", (FORCE, 1), None),
-    ("set_rest_curvature_per_mm", (2, [0, 0, 0]), None), ("set_rest_curvature_per_mm", (-1, [0, 0, 0]), None),
+    ("set_rest_curvature_per_mm", (2, [0, 0, 0]), "scene: rod.sections[2]: there are 2 sections"),
+    ("set_rest_curvature_per_mm", (-1, [0, 0, 0]), "scene: rod.sections[-1]: there are 2 sections"),
     ("set_rest_curvature_per_mm", (0, [0, math.inf, 0]), None)]
 
 
