@@ -1,5 +1,7 @@
 #include "fam/boundary_value.h"
 
+#include <cmath>
+
 namespace fam {
 
 template <int D>
@@ -24,8 +26,16 @@ void BasicBoundaryValue<D>::reserve(const Room& room) {
 }
 
 template <int D>
+bool BasicBoundaryValue<D>::loads_overflow() {
+  const LoadBounds& bounds = shooting_.bounds();
+  const bool overflow = !std::isfinite(bounds.load_length + bounds.turn_rad + bounds.strain);
+  why_ = overflow ? "the squares of the loads overflow" : nullptr;
+  return overflow;
+}
+
+template <int D>
 scene::Status BasicBoundaryValue<D>::run() {
-  why_ = nullptr;
+  if (loads_overflow()) return scene::Status::not_finite;
   shooting_.forget_work();
   const scene::Status status = growth_.run(shooting_);
   return status == scene::Status::converged ? place_arcs() : status;

@@ -24,7 +24,7 @@ class BasicBoundaryValue {
   // Along the way from the shape that the rod had (Shooting::start_at); also limit_point.
   template <class StateAt>
   scene::Status run_on(StateAt&& state_at) {
-    why_ = nullptr;
+    if (loads_overflow()) return scene::Status::not_finite;
     shooting_.forget_work();
     shooting_.start_at(state_at);
     const scene::Status status = growth_.run_on(shooting_);
@@ -55,6 +55,8 @@ class BasicBoundaryValue {
   bool one_equilibrium() const { return shooting_.one_equilibrium(); }
 
  private:
+  // Sets why_. Their squares are summed.
+  bool loads_overflow();
   scene::Status place_arcs();
 
   Shooting<D> shooting_;

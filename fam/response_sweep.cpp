@@ -58,6 +58,10 @@ void Response::prepare() {
   if (prepared_) return;
   prepared_ = true;
   name_spans();
+  if (arcs_.size() < first_arcs_.back()) {  // more than were reserved
+    arcs_.resize(first_arcs_.back());
+    for (Sweep& sweep : sweeps_) sweep.nodes.resize(first_arcs_.back());
+  }
   for (std::size_t i = solution_.spans.size(); i-- > 0;) factorise_span(i);
 }
 

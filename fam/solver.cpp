@@ -121,6 +121,7 @@ struct Solver::Impl {
   Outcome solve(Start start);
   Status solve_with_arcs(Attempt& attempt, bool on);
   void choose_arcs(const Problem& problem);
+  void refine(Attempt& attempt);
   void accept(Attempt& attempt);
   void place_ends();
   Response* prepared_response();
@@ -139,8 +140,8 @@ void Solver::Impl::reserve() {
     room.spans += 2;
     if (scene::tendon_of(load)) ++room.tendons;
   }
-  room.arcs = std::max({room.arcs, 2 * room.spans, static_cast<std::size_t>(2 * options.arcs)});
-  reserved_arcs = static_cast<int>(room.arcs);
+  room.arcs = std::max(room.arcs, 2 * room.spans);
+  reserved_arcs = std::max(static_cast<int>(room.arcs), 2 * std::min(options.arcs, max_arcs));
   const Law law = attempts[0].problem.choice().law;
   for (Attempt& attempt : attempts) {
     attempt.problem.reserve(scene, room);
@@ -158,6 +159,9 @@ void Solver::Impl::reserve() {
   ends.s_mm.reserve(room.arcs + 1);
   ends.poses.reserve(room.arcs + 1);
   ends.wrenches_B.reserve(room.arcs + 1);
+  if (options.arcs <= options.reserved_arcs) return;  // else what they take now
+  choose_arcs(attempts[0].problem);
+  for (Attempt& attempt : attempts) attempt.run.set(attempt.problem, arcs);
 }
 
 void Solver::Impl::choose_arcs(const Problem& problem) {
@@ -211,8 +215,20 @@ Solver::Outcome Solver::Impl::solve(Start start) {
       return {last, engine.load_steps(), engine.newton_steps(), message_of(last)};
     for (int& count : arcs) count *= 2;
   }
+  if (options.arcs == 0) refine(attempt);
   accept(attempt);
   return {last, engine.load_steps(), engine.newton_steps(), message_of(last)};
+}
+
+// The solved arcs turn and swing as far as the a priori bounds allow arcs to turn at most, or there are more of them.
+void Solver::Impl::refine(Attempt& attempt) {
+  const Problem& problem = attempt.problem;
+  const double allowed_rad =
+      first_turn_rad / arcs_factor(problem.choice().law, problem.tolerance_mm() / problem.length_mm());
+  const double times = std::ceil(attempt.run.extent(problem).swing_rad / allowed_rad);
+  if (!(times > 1) || !(times * attempt.run.arc_count() <= reserved_arcs)) return;
+  spare[0].solve(problem, attempt.run.arcs, static_cast<int>(times), &attempt.run);
+  if (spare[0].converged()) std::swap(attempt.run, spare[0]);
 }
 
 void Solver::Impl::accept(Attempt& attempt) {

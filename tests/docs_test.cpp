@@ -42,7 +42,8 @@ class Examples {
     const std::string text = contents(page);
     const std::vector<Block> blocks = blocks_of(text);
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-      const bool asks = blocks[i].info == "sh" || blocks[i].info == "json wrong";
+      const std::string& info = blocks[i].info;
+      const bool asks = info == "sh" || info == "json wrong" || info == "cpp" || info == "python";
       const bool answered =
           asks && i + 1 < blocks.size() && blocks[i + 1].info == "text" && blocks[i + 1].follows_directly;
       run(blocks[i], answered ? &blocks[i + 1] : nullptr);
@@ -67,7 +68,7 @@ class Examples {
   }
 
   void run(const Block& block, const Block* answer) {
-    static const std::set<std::string> other = {"cpp", "python", "cmake"};
+    static const std::set<std::string> other = {"cpp", "python", "cmake"};  // of the library's page: library_page_test
     if (block.info.rfind("json scene", 0) == 0) {
       run_scene(block);
     } else if (block.info == "json wrong") {

@@ -97,7 +97,7 @@ TEST(LibraryPage, PythonPrintsWhatThePageSays) {
   const Code code = code_of(page);
   std::ofstream(scratch() / "page.py") << code.python;
   std::string printed;
-  EXPECT_EQ(run_line("PYTHONPATH=" BUILD_FOLDER " python3 " + (scratch() / "page.py").string(), printed), 0);
+  EXPECT_EQ(run_line("PYTHONPATH=" BUILD_FOLDER " " PYTHON " " + (scratch() / "page.py").string(), printed), 0);
   EXPECT_TRUE(page_blocks::matches(code.python_prints, printed)) << printed;
   EXPECT_EQ(code.python_prints, code.program_prints);
 }

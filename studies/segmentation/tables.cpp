@@ -1,7 +1,7 @@
 #include "studies/report/provenance.h"
 #include "studies/report/table.h"
 #include "studies/segmentation/data.h"
-#include "studies/timing_cells.h"
+#include "studies/compare/timing_cells.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include "studies/report/table.h"
 #include "studies/study1/page.h"
 #include "studies/study1/printed.h"
-#include "studies/timing_cells.h"
+#include "studies/compare/timing_cells.h"
 
 #include <fmt/format.h>
 

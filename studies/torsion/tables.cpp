@@ -1,6 +1,6 @@
 #include "studies/report/provenance.h"
 #include "studies/report/table.h"
-#include "studies/timing_cells.h"
+#include "studies/compare/timing_cells.h"
 #include "studies/torsion/data.h"
 
 #include <fmt/format.h>

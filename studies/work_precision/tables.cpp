@@ -1,5 +1,5 @@
 #include "studies/report/table.h"
-#include "studies/timing_cells.h"
+#include "studies/compare/timing_cells.h"
 
 #include "studies/report/provenance.h"
 #include "studies/work_precision/competitors.h"
