@@ -261,7 +261,7 @@ TEST(Solver, LoadsThatOverflow) {
   for (const double force_N : {1e155, 1e160, 1e300}) {
     const scene::Scene scene = uniform_rod(100, slender(1000, 700), {scene::Force{100, Frame::fixed, {0, 0, force_N}}});
     EXPECT_EQ(fam::solve(scene).status, Status::not_finite) << force_N;
-    EXPECT_EQ(kept(scene, {}).solve().status, Status::not_finite) << force_N;
+    EXPECT_EQ(kept(scene, {}).solve().status, Status::tolerance_not_met) << force_N;  // too many arcs for its memory
   }
 }
 
