@@ -29,7 +29,9 @@ template <int D>
 void LoadGrowth<D>::set(const Shooting<D>& shooting) {
   for (Nodes* nodes : {&start_, &guess_, &previous_}) nodes->resize(shooting.nodes().size());
   watches_stability_ = scene::is_conservative(shooting.rod().way().bounds);
-  if (watches_stability_) judge_.set(shooting.rod());
+  if (!watches_stability_) return;
+  judge_.reserve({shooting.nodes().size(), shooting.rod().way().to.size(), 0});  // so that no step takes memory
+  judge_.set(shooting.rod());
 }
 
 template <int D>

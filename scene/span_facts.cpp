@@ -58,7 +58,7 @@ class DirectionFinder {
  public:
   // Whether the direction agrees with those before it; zero agrees with all.
   bool agrees(const Eigen::Vector2d& direction) {
-    const double size = direction.stableNorm();
+    const double plain = direction.norm(), size = std::isfinite(plain) ? plain : direction.stableNorm();
     if (size == 0) return true;
     if (common_.isZero(0)) common_ = direction / size;
     return std::abs(common_[0] * direction[1] - common_[1] * direction[0]) <= round_off * size;
