@@ -46,7 +46,10 @@ scene::Scene with(scene::Scene scene, const Inputs& inputs) {
 class Stream {
  public:
   explicit Stream(const StudyOptions& options)
-      : options_(options), scene_(read_case(options.cases, "stream/catheter")), solver_(made(scene_)) {
+      : options_(options),
+        scene_(read_case(options.cases, "stream/catheter")),
+        solver_(made(scene_)),
+        judged_(made(scene_)) {
     data_.length_mm = length_mm(scene_);
     data_.tolerance_mm = tolerance_mm;
     data_.samples.reserve(solves / every);
@@ -88,16 +91,22 @@ class Stream {
       data_.latency_us.push_back(spent.count());
       if (i % every == 0) {
         const auto& [first, second] = inputs.tensions_N;
-        data_.samples.push_back({i, {first, second}, inputs.force_N, solver_.tip().position_B_mm});
+        set(judged_, inputs);
+        judged_.solve();
+        data_.samples.push_back({i, {first, second}, inputs.force_N, judged_.tip().position_B_mm});
       }
     }
     if (options_.allocations) data_.allocations = static_cast<long>(options_.allocations() - before);
   }
 
+  static void set(fam::Solver& solver, const Inputs& inputs) {
+    for (int i = 0; i < 2; ++i) solver.set_tension_N(tendons[i], inputs.tensions_N[i]);
+    solver.set_force_N(force, inputs.force_N);
+  }
+
   // What a controller asks for at each tick.
   void solve(const Inputs& inputs) {
-    for (int i = 0; i < 2; ++i) solver_.set_tension_N(tendons[i], inputs.tensions_N[i]);
-    solver_.set_force_N(force, inputs.force_N);
+    set(solver_, inputs);
     if (!solver_.solve().converged()) ++data_.not_converged;
     double sum = solver_.compliance(data_.length_mm).sum() + solver_.by_load(force, data_.length_mm).sum();
     for (const std::size_t tendon : tendons) sum += solver_.by_load(tendon, data_.length_mm).col(0).sum();
@@ -115,6 +124,7 @@ class Stream {
   StudyOptions options_;
   scene::Scene scene_;
   fam::Solver solver_;
+  fam::Solver judged_;  // goes from one judged solve to the next, so that they do not depend on those between
   StreamData data_;
 };
 
