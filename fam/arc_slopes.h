@@ -26,6 +26,16 @@ struct ArcChange {
   Vector3d tendon_arm_mm = Vector3d::Zero();
 };
 
+// One of each component of the wrench, six; N = 9: and of a fixed distributed force.
+template <int N>
+ArcChange<N> unit_changes() {
+  ArcChange<N> change;
+  change.force_N.template leftCols<3>().setIdentity();
+  change.moment_Nmm.template middleCols<3>(3).setIdentity();
+  if constexpr (N == 9) change.fixed_D_N.template rightCols<3>().setIdentity();
+  return change;
+}
+
 // What an arc does, in its distal frame: Q, from the distal end's axes to the proximal one's; the way from the proximal
 // end to the distal one; the force and the moment about the distal end that distributed forces add. Slopes of a small
 // turn of the distal end from the proximal one, of the way, and of that force and moment (rows 0-2, 3-5, 6-8, 9-11; the

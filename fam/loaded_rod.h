@@ -80,8 +80,20 @@ class LoadedRod {
     march(arcs, state, [](int, const auto&, const auto&, const auto&) {});
   }
 
+  // visit(span, first arc, end arc): the part of each span that lies in the range, the last span first.
+  template <class Visit>
+  void for_spans(ArcRange arcs, Visit&& visit) const {
+    const SpanArcs<D>* span = std::upper_bound(span_arcs_.begin(), span_arcs_.end(), arcs.end_arc - 1,
+                                               [](int arc, const SpanArcs<D>& s) { return arc < s.first_arc; });
+    for (int end_arc = arcs.end_arc; end_arc > arcs.first_arc; end_arc = span->first_arc) {
+      --span;
+      visit(*span, std::max(arcs.first_arc, span->first_arc), end_arc);
+    }
+  }
+
   // A tendon had no length somewhere in a march since forget_collapse().
   bool tendon_collapsed() const { return tendon_collapsed_; }
+  void note_collapse() const { tendon_collapsed_ = true; }
   void forget_collapse() { tendon_collapsed_ = false; }
 
  private:
@@ -109,23 +121,19 @@ FAM_FLATTEN [[gnu::noinline]] BasicMotion<T, D> flat_step(Law law, const Section
 template <int D>
 template <bool with_shear, class T, class After>
 void LoadedRod<D>::march_with(ArcRange arcs, SectionState<D, T>& state, After&& after_arc) const {
-  int end_arc = arcs.end_arc;
-  const SpanArcs<D>* span = std::upper_bound(span_arcs_.begin(), span_arcs_.end(), end_arc - 1,
-                                             [](int arc, const SpanArcs<D>& s) { return arc < s.first_arc; });
-  while (end_arc > arcs.first_arc) {
-    --span;
-    if (end_arc == span->end_arc) span->add_point_loads(state.rotation_SB, state.wrench);
-    const ElasticSection<with_shear, T, D> section(span->constants);
-    for (int arc = end_arc; arc-- > std::max(arcs.first_arc, span->first_arc);) {
+  for_spans(arcs, [&](const SpanArcs<D>& span, int first_arc, int end_arc) {
+    if (end_arc == span.end_arc) span.add_point_loads(state.rotation_SB, state.wrench);
+    const ElasticSection<with_shear, T, D> section(span.constants);
+    for (int arc = end_arc; arc-- > first_arc;) {
       BasicScrew<T, D> screw;
       BasicMotion<T, D> motion;
       ArcForces<T, D> forces;
-      if (span->distributed) forces = span->forces(state.rotation_SB);
-      const ArcForces<T, D>* distributed = span->distributed ? &forces : nullptr;
+      if (span.distributed) forces = span.forces(state.rotation_SB);
+      const ArcForces<T, D>* distributed = span.distributed ? &forces : nullptr;
       if constexpr (requires { after_arc.meet(arc, state); }) after_arc.meet(arc, state);
-      if (!span->constants.is_elastic()) {
-        motion = tendon_step<with_shear>(law_, span->constants, distributed, state.wrench, screw, tendon_collapsed_);
-      } else if constexpr (sizeof(T) <= sizeof(Dual<3>)) {
+      if (!span.constants.is_elastic()) {
+        motion = tendon_step<with_shear>(law_, span.constants, distributed, state.wrench, screw, tendon_collapsed_);
+      } else if constexpr (sizeof(T) <= sizeof(Dual<1>)) {
         motion = flat_step(law_, section, distributed, state.wrench, screw);
       } else {
         motion = law_step(law_, section, distributed, state.wrench, screw);
@@ -135,8 +143,7 @@ void LoadedRod<D>::march_with(ArcRange arcs, SectionState<D, T>& state, After&& 
       }
       after_arc(arc, screw, motion, state);
     }
-    end_arc = std::max(arcs.first_arc, span->first_arc);
-  }
+  });
 }
 
 }  // namespace fam

@@ -19,15 +19,6 @@ Columns turn_stiffness(const scene::Span& span, const Matrix3d& rotation_BS) {
   return slopes;
 }
 
-// One for each component of the distal wrench.
-template <int N>
-ArcChange<N> unit_changes() {
-  ArcChange<N> change;
-  change.force_N.template leftCols<3>().setIdentity();
-  change.moment_Nmm.template middleCols<3>(3).setIdentity();
-  return change;
-}
-
 // Blocks of three rows and columns, from a section's frame into the base frame.
 template <int rows, int N>
 void to_base(const Matrix3d& rotation_BS, const Eigen::Matrix<double, 12, N>& from, Eigen::Matrix<double, 12, 9>& to) {
@@ -101,10 +92,8 @@ SectionWrench Response::linearise(std::size_t i, std::size_t k) {
     arc.way_mm = R * variation.way_D_mm;
     return {};
   }
-  ArcChange<9> change = unit_changes<9>();
-  change.fixed_D_N.rightCols<3>().setIdentity();
   const ArcForces<double, 3> forces = forces_on(i, constants_.length_mm, R);
-  const ArcVariation<9> variation = vary_arc(solution_.law, solution_.model, constants_, &forces, wrench, change);
+  const ArcVariation<9> variation = vary_arc(solution_.law, solution_.model, constants_, &forces, wrench, unit_changes<9>());
   to_base<12>(R, variation.slopes, arc.slopes);
   arc.way_mm = R * variation.way_D_mm;
   return {R * variation.gain_D.force_N, R * variation.gain_D.moment_Nmm};

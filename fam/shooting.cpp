@@ -2,6 +2,7 @@
 
 #include "fam/load_length.h"
 #include "fam/rotation.h"
+#include "fam/varied_march.h"
 #include "scene/span_facts.h"
 
 #include <Eigen/Dense>
@@ -11,6 +12,17 @@
 #include <limits>
 
 namespace fam {
+namespace {
+
+// sine_vector(M [turn]) by the turn.
+Matrix3d sine_slope(const Matrix3d& M) {
+  return 0.5 * (M.trace() * Matrix3d::Identity() - M.transpose());
+}
+Eigen::Matrix<double, 1, 1> sine_slope(const Eigen::Matrix2d& M) {
+  return Eigen::Matrix<double, 1, 1>(0.5 * M.trace());
+}
+
+}  // namespace
 
 template <int D>
 void Shooting<D>::set(const LoadWay& way, std::span<const int> arcs_per_span, Law law, RodModel model,
@@ -110,53 +122,32 @@ void Shooting<D>::start_unloaded() {
   }
 }
 
-// A node with derivatives in the directions of its N unknowns.
-template <int D>
-template <int N>
-SectionState<D, Dual<N>> Shooting<D>::varied(const Node& node) const {
-  using Number = Dual<N>;
-  SectionState<D, Number> state{
-      node.rotation_SB.template cast<Number>(),
-      {node.wrench.force_N.template cast<Number>(), node.wrench.moment_Nmm.template cast<Number>()}};
-  for (int i = 0; i < rotations; ++i) {
-    for (int axis = 0; axis < D; ++axis) {  // turning the section by e_i turns the base axes in it by -e_i
-      const Vector<double, D> slope =
-          -cross(Angular<double, D>(Angular<double, D>::Unit(i)), Vector<double, D>(node.rotation_SB.col(axis)));
-      for (int row = 0; row < D; ++row) state.rotation_SB(row, axis).slope[i] = slope[row];
-    }
-  }
-  if constexpr (N == unknowns) {
-    for (int i = 0; i < D; ++i) state.wrench.force_N[i].slope[rotations + i] = force_unit();
-    for (int i = 0; i < rotations; ++i) state.wrench.moment_Nmm[i].slope[rotations + D + i] = moment_unit();
-  }
-  return state;
-}
-
 // Residual and derivatives of segment k with respect to the N unknowns of its node: the tip's rotations, or all.
 template <int D>
 template <int N>
 void Shooting<D>::evaluate_segment(std::size_t k, SegmentEquations& equations) const {
-  using Number = Dual<N>;
-  SectionState<D, Number> state = varied<N>(nodes_[k]);
-  rod_.march(segments_[k], state);
-  const Rotation target_SB = k > 0 ? nodes_[k - 1].rotation_SB : Rotation::Identity();
-  const Eigen::Matrix<Number, D, D> mismatch = state.rotation_SB * target_SB.transpose().template cast<Number>();
-  Eigen::Matrix<Number, unknowns, 1> residual;
-  residual << sine_vector(mismatch), state.wrench.force_N, state.wrench.moment_Nmm;
-  if (k > 0) {
-    residual.template segment<D>(rotations) -= nodes_[k - 1].wrench.force_N.template cast<Number>();
-    residual.template tail<rotations>() -= nodes_[k - 1].wrench.moment_Nmm.template cast<Number>();
+  SectionState<D> state = nodes_[k];
+  Fields<D, N> fields;
+  fields.turn = fields.turn.Identity();
+  fields.force_N.setZero();
+  fields.moment_Nmm.setZero();
+  if constexpr (N == unknowns) {
+    fields.force_N.template middleCols<D>(rotations).diagonal().setConstant(force_unit());
+    fields.moment_Nmm.template rightCols<rotations>().diagonal().setConstant(moment_unit());
   }
-  Rotation values;
-  for (int i = 0; i < D * D; ++i) values(i) = mismatch(i).value;
-  equations.mismatch_is_small = is_small<D>(values);
-  if constexpr (D == 3) equations.mismatch_slope = 0.5 * (values.trace() * Rotation::Identity() - values.transpose());
-  else equations.mismatch_slope(0, 0) = 0.5 * values.trace();
-  for (int i = 0; i < unknowns; ++i) {
-    const double unit = i < rotations ? 1 : i < rotations + D ? force_unit() : moment_unit();
-    equations.residual[i] = residual[i].value / unit;
-    equations.arrival.row(i).template head<N>() = residual[i].slope.matrix().transpose() / unit;
-  }
+  march_varied(rod_, segments_[k], state, fields);
+  const Node target = k > 0 ? nodes_[k - 1] : Node{Rotation::Identity(), {}};
+  const Rotation mismatch = state.rotation_SB * target.rotation_SB.transpose();
+  auto& [residual, arrival, mismatch_slope, mismatch_is_small] = equations;
+  mismatch_is_small = is_small<D>(mismatch);
+  mismatch_slope = sine_slope(mismatch);
+  residual.template head<rotations>() = sine_vector<double>(mismatch);
+  residual.template segment<D>(rotations) = (state.wrench.force_N - target.wrench.force_N) / force_unit();
+  residual.template tail<rotations>() = (state.wrench.moment_Nmm - target.wrench.moment_Nmm) / moment_unit();
+  const Eigen::Matrix<double, rotations, rotations> by_turn = -sine_slope(Rotation(mismatch.transpose()));
+  arrival.template topLeftCorner<rotations, N>() = by_turn.lazyProduct(fields.turn);
+  arrival.template block<D, N>(rotations, 0) = fields.force_N / force_unit();
+  arrival.template bottomLeftCorner<rotations, N>() = fields.moment_Nmm / moment_unit();
 }
 
 // Moves the nodes; the largest change of an unknown.

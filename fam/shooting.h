@@ -103,8 +103,6 @@ class Shooting {
   void cut_into_segments();
   void set_few_arcs();
   template <int N>
-  SectionState<D, Dual<N>> varied(const Node& node) const;
-  template <int N>
   void evaluate_segment(std::size_t k, SegmentEquations& equations) const;
   void assemble(int k, const SegmentEquations& equations);
   bool newton_one_segment(bool fresh_slope, double tolerance);

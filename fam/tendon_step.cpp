@@ -29,11 +29,7 @@ FAM_TENDON_STEP(false, double, 2)
 FAM_TENDON_STEP(false, Dual<1>, 2)
 FAM_TENDON_STEP(false, Dual<4>, 2)
 FAM_TENDON_STEP(true, double, 3)
-FAM_TENDON_STEP(true, Dual<3>, 3)
-FAM_TENDON_STEP(true, Dual<9>, 3)
 FAM_TENDON_STEP(false, double, 3)
-FAM_TENDON_STEP(false, Dual<3>, 3)
-FAM_TENDON_STEP(false, Dual<9>, 3)
 #undef FAM_TENDON_STEP
 
 template BasicScrew<double, 2> strain_under<true>(const BasicArcConstants<2>&, const BasicWrench<double, 2>&);
