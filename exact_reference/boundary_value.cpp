@@ -21,10 +21,11 @@ constexpr double largest_miss_rad = 0.1;  // corrected against predicted rotatio
 constexpr double largest_turn_rad = 0.8;  // of any section in a load step
 constexpr double first_turn_rad = 0.1;
 constexpr int most_load_steps = 3000;
-constexpr double most_work = 300'000;       // intervals linearised: seconds
-constexpr double most_rest_turn_rad = 1e4;  // two intervals a radian, and so seconds, too
-constexpr double collapsed_tangent = 1e-4;  // of a tendon where the load cannot grow
-constexpr double smallest_step = 1e-8;      // of the load reached or of the first step, whichever is larger
+constexpr double most_work = 300'000;         // intervals linearised: seconds
+constexpr double most_rest_turn_rad = 1e4;    // two intervals a radian, and so seconds, too
+constexpr double collapsed_tangent = 1e-4;    // of a tendon where the load cannot grow
+constexpr double longest_step_on_way = 0.05;  // loads that turn back pass where branches meet; chosen, not measured
+constexpr double smallest_step = 1e-8;        // of the load reached or of the first step, whichever is larger
 
 // Largest rotation between two sets of node states; a small quaternion change is half a rotation.
 template <class States>
@@ -44,7 +45,8 @@ struct Path {
   bool tendon_collapsed = false;  // in the last iteration
   bool watch_stability = false;   // conservative, and stable so far
   scene::Symmetry symmetry = scene::Symmetry::none;
-  double load_size = 0;            // of ScaledRod
+  double load_size = 0;  // of ScaledRod
+  double longest_step = 1;
   scene::BranchWatch branch = {};  // by the determinant of the equations' derivatives
 
   Convergence newton(NodeStates& states, double load_factor, double tolerance, int max_iterations) {
@@ -133,7 +135,7 @@ bool follow_load(Path& path) {
       step = first_step = std::min(1 / std::max(path.load_size, 1.0), first_turn_rad / std::max(slope, first_turn_rad));
       if (!(first_step > 0)) return false;  // a load or a slope overflows
     }
-    step = std::min(step, path.branch.longest_step(path.load));
+    step = std::min({step, path.longest_step, path.branch.longest_step(path.load)});
     double miss = HUGE_VAL;
     for (;;) {
       const bool to_the_end = path.load + 1.01 * step >= 1;
@@ -152,6 +154,20 @@ bool follow_load(Path& path) {
     step *= std::clamp(std::sqrt(largest_miss_rad / 4 / std::max(miss, 1e-6)), 0.5, 3.0);
   }
   return true;
+}
+
+bool has_energy(const ScaledRod& rod) {
+  return !rod.has_follower_load() && !rod.has_fixed_moment();
+}
+
+// The path stands under the loads that the rod had, and will go from there to its own.
+bool start_stage(Path& path, const ScaledRod& rod) {
+  path.load = 0;
+  path.shooting.forget();
+  path.symmetry = rod.symmetry;
+  path.load_size = rod.load_size();
+  path.branch = {};
+  return adapt(path, on_the_way);
 }
 
 // Largest error of a node's position over L, estimated by the change that halving the mesh makes; keeps the finer mesh.
@@ -211,7 +227,7 @@ std::vector<PlacedState> states_at(const std::vector<double>& places, const Scal
 }
 
 void set_stability(scene::Equilibrium& result, const ScaledRod& rod, const Path& path) {
-  if (rod.has_follower_load() || rod.has_fixed_moment()) return;  // not conservative: energy does not decide
+  if (!has_energy(rod)) return;  // not conservative: energy does not decide
   const std::optional<int> falling = falling_directions(path.shooting, path.y);
   if (!falling) return;
   result.stable = *falling == 0;
@@ -260,19 +276,25 @@ scene::Equilibrium stopped(const ScaledRod& rod, const Path& path) {
 
 }  // namespace
 
-scene::Equilibrium solve_boundary_value(const ScaledRod& rod, double tolerance) {
+scene::Equilibrium solve_boundary_value(std::span<const ScaledRod> way, double tolerance) {
   scene::Equilibrium result;
+  ScaledRod rod = way.front();
   if (!(rest_turn_rad(rod) <= most_rest_turn_rad)) {
     result.status = scene::Status::not_converged;
     result.message = "the rest shape turns by more than 1e4 rad";
     return result;
   }
   Path path{Shooting(rod, initial_intervals), {}};
-  path.symmetry = rod.symmetry;
-  path.load_size = rod.load_size();
-  path.watch_stability = !rod.has_follower_load() && !rod.has_fixed_moment();
   path.y = path.shooting.unloaded();
-  if (!adapt(path, on_the_way) || !follow_load(path)) return stopped(rod, path);
+  if (way.size() > 1) path.longest_step = longest_step_on_way;
+  for (const ScaledRod& stage : way) {
+    const bool first = &stage == &way.front(), had_energy = first || has_energy(rod);
+    rod = stage;
+    if (!start_stage(path, rod)) return stopped(rod, path);
+    path.watch_stability =
+        had_energy && has_energy(rod) && (first || falling_directions(path.shooting, path.y, 0).value_or(0) == 0);
+    if (!follow_load(path)) return stopped(rod, path);
+  }
   const double error = solve_accurately(path, tolerance);
   if (error < 0 && path.exhausted()) return stopped(rod, path);
   const double worst_error = std::max(1e-6, tolerance);  // beyond it the answer is not worth its name

@@ -20,7 +20,8 @@
 
 namespace exact_reference {
 
-// tolerance: of any position, over L.
-scene::Equilibrium solve_boundary_value(const ScaledRod& rod, double tolerance);
+// tolerance: of any position, over L. The rods of a way (scaled_way), or one alone: the branch goes on from each to the
+// next.
+scene::Equilibrium solve_boundary_value(std::span<const ScaledRod> way, double tolerance);
 
 }  // namespace exact_reference

@@ -54,14 +54,17 @@ Eigen::Matrix<double, 4, 3> quaternion_tangent(const Vector4d& q) {  // dq = 1/2
   return m;
 }
 
-RodEquations::RodEquations(const ScaledSpan& span, double load_factor)
-    : span_(span),
-      load_factor_(load_factor),
-      follower_density_(load_factor * span.follower_density_S),
-      fixed_density_(load_factor * span.fixed_density_B),
-      follower_load_{load_factor * span.follower_load_S.force_N, load_factor * span.follower_load_S.moment_Nmm},
-      fixed_load_{load_factor * span.fixed_load_B.force_N, load_factor * span.fixed_load_B.moment_Nmm},
-      fixed_force_arms_(load_factor * span.fixed_force_arms_BS) {}
+RodEquations::RodEquations(const ScaledSpan& span, double load_factor) : span_(span), load_factor_(load_factor) {
+  const auto grown = [&](auto& value, const auto& from, const auto& to) { value = from + load_factor * (to - from); };
+  const SpanLoads& from = span.before;
+  grown(loads_.follower_density_S, from.follower_density_S, span.follower_density_S);
+  grown(loads_.fixed_density_B, from.fixed_density_B, span.fixed_density_B);
+  grown(loads_.follower_load_S.force_N, from.follower_load_S.force_N, span.follower_load_S.force_N);
+  grown(loads_.follower_load_S.moment_Nmm, from.follower_load_S.moment_Nmm, span.follower_load_S.moment_Nmm);
+  grown(loads_.fixed_load_B.force_N, from.fixed_load_B.force_N, span.fixed_load_B.force_N);
+  grown(loads_.fixed_load_B.moment_Nmm, from.fixed_load_B.moment_Nmm, span.fixed_load_B.moment_Nmm);
+  grown(loads_.fixed_force_arms_BS, from.fixed_force_arms_BS, span.fixed_force_arms_BS);
+}
 
 TendonStrains RodEquations::tendon_strains() const {
   Vector6d rest, compliance;
@@ -114,7 +117,7 @@ State RodEquations::derivative(const State& y) const {
   const Vector3d tangent = R * v;
   State dy;
   dy.head<4>() = quaternion_derivative(q, u);
-  dy.segment<3>(4) = -fixed_density_ - R * follower_density_;
+  dy.segment<3>(4) = -loads_.fixed_density_B - R * loads_.follower_density_S;
   dy.segment<3>(7) = -tangent.cross(N);
   dy.tail<3>() = tangent;
   return dy;
@@ -145,7 +148,7 @@ CoreMatrix RodEquations::jacobian(const State& y) const {
   J.block<4, 4>(0, 0) = dq_by_q + dq_by_u * (C.um * m_by_q + C.un * n_by_q);
   J.block<4, 3>(0, 4) = dq_by_u * u_by_N;
   J.block<4, 3>(0, 7) = dq_by_u * (C.um * R.transpose());
-  J.block<3, 4>(4, 0) = -rotated_by_quaternion(q, follower_density_, 1);
+  J.block<3, 4>(4, 0) = -rotated_by_quaternion(q, loads_.follower_density_S, 1);
   J.block<3, 4>(7, 0) = cross_matrix(N) * tangent_by_q;
   J.block<3, 3>(7, 4) = cross_matrix(N) * tangent_by_N - cross_matrix(tangent);
   J.block<3, 3>(7, 7) = cross_matrix(N) * (R * C.un.transpose() * R.transpose());
@@ -155,33 +158,33 @@ CoreMatrix RodEquations::jacobian(const State& y) const {
 void RodEquations::wrench_derivative_S(const Vector3d& n, const Vector3d& m, const Strains& strains, Vector3d& dn,
                                        Vector3d& dm) const {
   const auto& [u, v] = strains;
-  dn = -u.cross(n) - follower_density_;
+  dn = -u.cross(n) - loads_.follower_density_S;
   dm = -u.cross(m) - v.cross(n);
 }
 
 State RodEquations::beyond_point_loads(const State& y) const {
   const Matrix3d R = rotation_of(y.head<4>());
   State out = y;
-  out.segment<3>(4) -= fixed_load_.force_N + R * follower_load_.force_N;
-  out.segment<3>(7) -= fixed_load_.moment_Nmm + R * follower_load_.moment_Nmm;
-  out.segment<3>(7) -= scene::moment_of_arms<double>(fixed_force_arms_ * R.transpose());
+  out.segment<3>(4) -= loads_.fixed_load_B.force_N + R * loads_.follower_load_S.force_N;
+  out.segment<3>(7) -= loads_.fixed_load_B.moment_Nmm + R * loads_.follower_load_S.moment_Nmm;
+  out.segment<3>(7) -= scene::moment_of_arms<double>(loads_.fixed_force_arms_BS * R.transpose());
   return out;
 }
 
 CoreMatrix RodEquations::beyond_point_loads_jacobian(const State& y) const {
   CoreMatrix J = CoreMatrix::Identity();
-  J.block<3, 4>(4, 0) = -rotated_by_quaternion(y.head<4>(), follower_load_.force_N, 1);
-  J.block<3, 4>(7, 0) = -rotated_by_quaternion(y.head<4>(), follower_load_.moment_Nmm, 1);
+  J.block<3, 4>(4, 0) = -rotated_by_quaternion(y.head<4>(), loads_.follower_load_S.force_N, 1);
+  J.block<3, 4>(7, 0) = -rotated_by_quaternion(y.head<4>(), loads_.follower_load_S.moment_Nmm, 1);
   for (int axis = 1; axis < 3; ++axis) {  // the moment is sum (R e_axis) x arms.col(axis)
-    if (fixed_force_arms_.col(axis).isZero(0)) continue;
-    J.block<3, 4>(7, 0) +=
-        cross_matrix(fixed_force_arms_.col(axis)) * rotated_by_quaternion(y.head<4>(), Vector3d::Unit(axis), 1);
+    if (loads_.fixed_force_arms_BS.col(axis).isZero(0)) continue;
+    J.block<3, 4>(7, 0) += cross_matrix(loads_.fixed_force_arms_BS.col(axis)) *
+                           rotated_by_quaternion(y.head<4>(), Vector3d::Unit(axis), 1);
   }
   return J;
 }
 
 Matrix3d RodEquations::arms_second_variation(const State& y) const {
-  const Matrix3d arms_B = fixed_force_arms_ * rotation_of(y.head<4>()).transpose();  // sum F a^T
+  const Matrix3d arms_B = loads_.fixed_force_arms_BS * rotation_of(y.head<4>()).transpose();  // sum F a^T
   return arms_B.trace() * Matrix3d::Identity() - (arms_B + arms_B.transpose()) / 2;
 }
 

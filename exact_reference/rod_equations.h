@@ -31,7 +31,8 @@ struct Strains {
   Eigen::Vector3d stretch_S;    // v
 };
 
-// A span under load_factor times its loads (tendons are loads; the rest curvature is not). The span must outlive it.
+// A span on the way from the loads before, at a load_factor of 0, to its own, at 1 (tendons are loads; the rest
+// curvature is not). The span must outlive it.
 class RodEquations {
  public:
   RodEquations(const ScaledSpan& span, double load_factor);
@@ -67,9 +68,7 @@ class RodEquations {
 
   const ScaledSpan& span_;
   double load_factor_;
-  Eigen::Vector3d follower_density_, fixed_density_;
-  scene::Wrench follower_load_, fixed_load_;
-  Eigen::Matrix3d fixed_force_arms_;
+  SpanLoads loads_;
 };
 
 // q' = 1/2 q (0, u).

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-double mean_bending_stiffness_Nmm2(const std::vector<scene::Span>& spans) {
+double mean_bending_stiffness_Nmm2(std::span<const scene::Span> spans) {
   double compliance = 0;
   for (const scene::Span& span : spans) compliance += span.length_mm() / span.stiffness.bending_Nmm2.minCoeff();
   return spans.back().end_mm / compliance;
@@ -108,8 +108,10 @@ bool ScaledRod::shears_or_stretches() const {
                      [](const ScaledSpan& span) { return !span.shear_compliance.isZero(0); });
 }
 
-ScaledRod scaled_rod(const scene::Scene& scene, RodModel model) {
-  const std::vector<scene::Span> spans = scene::spans_of(scene);
+namespace {
+
+// In the scene's own axes.
+ScaledRod scaled(const scene::Scene& scene, std::span<const scene::Span> spans, RodModel model) {
   const double length = spans.back().end_mm;
   const double bending = mean_bending_stiffness_Nmm2(spans);
 
@@ -141,10 +143,50 @@ ScaledRod scaled_rod(const scene::Scene& scene, RodModel model) {
     }
   }
   set_tendon_paths(rod, scene);
+  return rod;
+}
+
+// The loads of `rod` grow from those of `before`.
+void start_from(ScaledRod& rod, const ScaledRod& before) {
+  for (std::size_t i = 0; i < rod.spans.size(); ++i) {
+    ScaledSpan& span = rod.spans[i];
+    span.before = before.spans[i];
+    for (const ScaledTendon& tendon : before.spans[i].tendons) {
+      const auto same = std::find_if(span.tendons.begin(), span.tendons.end(),
+                                     [&](const ScaledTendon& t) { return t.arm_S == tendon.arm_S; });
+      if (same == span.tendons.end()) span.tendons.push_back({tendon.arm_S, 0, tendon.tension});
+      else same->tension_before = tendon.tension;
+    }
+  }
+}
+
+}  // namespace
+
+ScaledRod scaled_rod(const scene::Scene& scene, RodModel model) {
+  const std::vector<scene::Span> spans = scene::spans_of(scene);
+  ScaledRod rod = scaled(scene, spans, model);
   const std::optional<Eigen::Vector2d> direction = scene::plane_direction(spans);
   const bool oblique = direction && (*direction)[0] != 0 && (*direction)[1] != 0;
   if (oblique && scene::is_isotropic(spans)) turn_into_xy(rod, *direction);
   return rod;
+}
+
+std::vector<ScaledRod> scaled_way(std::span<const scene::Scene> scenes, RodModel model) {
+  std::vector<const scene::Scene*> all;
+  for (const scene::Scene& scene : scenes) all.push_back(&scene);
+  scene::SpanCutter cutter;
+  cutter.cut(all);
+  std::vector<ScaledRod> rods;
+  scene::Reused<scene::Span> spans;
+  for (const scene::Scene& scene : scenes) {
+    cutter.fill(scene, spans);
+    rods.push_back(scaled(scene, spans, model));
+    if (rods.size() == 1) continue;
+    ScaledRod& before = rods[rods.size() - 2];
+    start_from(rods.back(), before);
+    rods.back().symmetry = scene::common_symmetry(rods.back().symmetry, before.symmetry);
+  }
+  return rods;
 }
 
 }  // namespace exact_reference

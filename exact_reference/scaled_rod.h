@@ -8,25 +8,32 @@
 #include "scene/span_facts.h"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace exact_reference {
 
 using scene::RodModel;
 
-// scene::Span, dimensionless. Suffix _S: section frame; _B: base frame.
-struct ScaledSpan {
+// Loads of a span. Suffix _S: section frame; _B: base frame.
+struct SpanLoads {
+  Eigen::Vector3d follower_density_S = Eigen::Vector3d::Zero();  // force per length
+  Eigen::Vector3d fixed_density_B = Eigen::Vector3d::Zero();
+  scene::Wrench follower_load_S;  // at the span's end
+  scene::Wrench fixed_load_B;
+  // Sum F r^T of the fixed forces off the centreline at the span's end.
+  Eigen::Matrix3d fixed_force_arms_BS = Eigen::Matrix3d::Zero();
+};
+
+// scene::Span, dimensionless.
+struct ScaledSpan : SpanLoads {
   double start = 0;
   double end = 0;
   Eigen::Vector3d bending_compliance;  // K_u^-1: torsion, bending y, bending z
   Eigen::Vector3d shear_compliance;    // K_v^-1: stretch, shear y, shear z; 0 = rigid
   Eigen::Vector3d rest_curvature_S;
-  Eigen::Vector3d follower_density_S;  // force per length
-  Eigen::Vector3d fixed_density_B;
-  scene::Wrench follower_load_S;  // at the span's end
-  scene::Wrench fixed_load_B;
-  Eigen::Matrix3d fixed_force_arms_BS;  // sum F r^T of the fixed forces off the centreline at the span's end
   std::vector<ScaledTendon> tendons;
+  SpanLoads before;  // that the loads grow from
 
   double length() const { return end - start; }
 };
@@ -61,5 +68,8 @@ struct ScaledRod {
 };
 
 ScaledRod scaled_rod(const scene::Scene& scene, RodModel model);
+// Scenes that differ in their loads alone, not in their kinds: each rod's loads grow from those of the one before, the
+// first one's from none. With one scene's cuts as with all's.
+std::vector<ScaledRod> scaled_way(std::span<const scene::Scene> scenes, RodModel model);
 
 }  // namespace exact_reference

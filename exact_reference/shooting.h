@@ -87,6 +87,9 @@ class Shooting {
   };
   const Linearised& linearised(const NodeStates& y, double load_factor) const;
 
+  // After a change of the rod's loads.
+  void forget() { linearised_ = {}; }
+
   // Intervals linearised so far: what costs.
   double work() const { return work_; }
 

@@ -4,11 +4,18 @@
 #include "exact_reference/initial_value.h"
 
 namespace exact_reference {
+namespace {
 
-scene::Equilibrium solve(const scene::Scene& scene, const Options& options) {
+void check(const Options& options) {
   if (!(options.tolerance >= 1e-13 && options.tolerance <= 1e-3)) {
     throw scene::SceneError("options: tolerance = " + std::to_string(options.tolerance) + ": must be 1e-13 to 1e-3");
   }
+}
+
+}  // namespace
+
+scene::Equilibrium solve(const scene::Scene& scene, const Options& options) {
+  check(options);
   const ScaledRod rod = scaled_rod(scene, options.model);
   const bool march = options.way == Way::automatic ? !rod.has_fixed_load() : options.way == Way::initial_value;
   if (march && rod.has_fixed_load()) {
@@ -18,7 +25,7 @@ scene::Equilibrium solve(const scene::Scene& scene, const Options& options) {
     return refused;
   }
   scene::Equilibrium result =
-      march ? solve_initial_value(rod, options.tolerance) : solve_boundary_value(rod, options.tolerance);
+      march ? solve_initial_value(rod, options.tolerance) : solve_boundary_value({&rod, 1}, options.tolerance);
   // Tendons and rest curvature alone: the elastic energy is convex in the strains, and no load does work.
   if (march && result.converged() && !rod.has_follower_load()) result.stable = true;
   result.model.insert(result.model.begin(),
@@ -27,6 +34,11 @@ scene::Equilibrium solve(const scene::Scene& scene, const Options& options) {
                        {"reason", std::string(march ? "all loads follow the rod" : "loads in the base frame")}});
   if (!march && !rod.has_fixed_load()) std::get<std::string>(result.model[2].second) = "asked for";
   return result;
+}
+
+scene::Equilibrium solve_along(std::span<const scene::Scene> scenes, const Options& options) {
+  check(options);
+  return solve_boundary_value(scaled_way(scenes, options.model), options.tolerance);
 }
 
 }  // namespace exact_reference

@@ -5,6 +5,8 @@
 #include "scene/equilibrium.h"
 #include "scene/scene.h"
 
+#include <span>
+
 namespace exact_reference {
 
 enum class Way {
@@ -30,5 +32,10 @@ struct Options {
 // unsupported.
 // Throws scene::SceneError if an option is out of its range. The scene must be valid.
 scene::Equilibrium solve(const scene::Scene& scene, const Options& options = {});
+
+// The equilibrium that the rod reaches when its loads go in a straight line from zero to those of the first scene, from
+// there to those of the second, and so on; always by boundary_value. The scenes have one rod and the same kinds of
+// load. load_step_too_small also where no equilibrium continues that reached on the way.
+scene::Equilibrium solve_along(std::span<const scene::Scene> scenes, const Options& options = {});
 
 }  // namespace exact_reference

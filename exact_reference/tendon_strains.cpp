@@ -33,7 +33,7 @@ Vector6d TendonStrains::pull(const Vector6d& strains, double rounding) const {
   Vector6d sum = Vector6d::Zero();
   for (const ScaledTendon& tendon : tendons_) {
     const Vector3d t = tendon_tangent_S(strains, tendon.arm_S);
-    const Vector3d force = (load_factor_ * tendon.tension / std::sqrt(t.squaredNorm() + rounding * rounding)) * t;
+    const Vector3d force = (tension(tendon) / std::sqrt(t.squaredNorm() + rounding * rounding)) * t;
     sum.head<3>() += tendon.arm_S.cross(force);
     sum.tail<3>() += force;
   }
@@ -44,8 +44,7 @@ double TendonStrains::energy(const Vector6d& z, const Vector6d& weighted_wrench,
   const Vector6d strains = rest_ + root_compliance_.cwiseProduct(z);
   double sum = 0.5 * z.squaredNorm() - weighted_wrench.dot(z);
   for (const ScaledTendon& tendon : tendons_) {
-    sum += load_factor_ * tendon.tension *
-           std::sqrt(tendon_tangent_S(strains, tendon.arm_S).squaredNorm() + rounding * rounding);
+    sum += tension(tendon) * std::sqrt(tendon_tangent_S(strains, tendon.arm_S).squaredNorm() + rounding * rounding);
   }
   return sum;
 }
@@ -58,7 +57,7 @@ Matrix6d TendonStrains::hessian(const Vector6d& strains, double rounding) const 
     const Vector3d direction = t / length;
     const Eigen::Matrix<double, 3, 6> A = tangent_by_strains(tendon.arm_S) * root_compliance_.asDiagonal();
     const Matrix3d across = Matrix3d::Identity() - direction * direction.transpose();
-    H.noalias() += (load_factor_ * tendon.tension / length) * A.transpose() * (across * A);
+    H.noalias() += (tension(tendon) / length) * A.transpose() * (across * A);
   }
   return H;
 }

@@ -23,6 +23,7 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 struct ScaledTendon {
   Eigen::Vector3d arm_S = Eigen::Vector3d::Zero();  // r = (0, y, z)
   double tension = 0;
+  double tension_before = 0;  // that it grows from
 };
 
 // v + u x r of strains (u, v).
@@ -30,7 +31,7 @@ Eigen::Vector3d tendon_tangent_S(const Vector6d& strains, const Eigen::Vector3d&
 
 class TendonStrains {
  public:
-  // `tendons` must outlive this; their tensions are multiplied by `load_factor`.
+  // `tendons` must outlive this; load_factor: the share of the way from the tensions before, 0, to their own, 1.
   TendonStrains(std::span<const ScaledTendon> tendons, double load_factor, const Vector6d& rest,
                 const Vector6d& compliance);
 
@@ -49,6 +50,9 @@ class TendonStrains {
   bool newton(Vector6d& z, const Vector6d& weighted_wrench, double rounding) const;
 
   double shortest_tangent(const Vector6d& z) const;
+  double tension(const ScaledTendon& tendon) const {
+    return tendon.tension_before + load_factor_ * (tendon.tension - tendon.tension_before);
+  }
 
   std::span<const ScaledTendon> tendons_;
   double load_factor_;
