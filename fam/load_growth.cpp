@@ -1,5 +1,6 @@
 #include "fam/load_growth.h"
 
+#include "fam/load_length.h"
 #include "fam/rotation.h"
 #include "scene/span_facts.h"
 
@@ -138,7 +139,7 @@ void LoadGrowth<D>::start_watch(const Shooting<D>& shooting) {
   may_fall_ = symmetry != scene::Symmetry::none;
   branch_ = {};
   branch_.keep(0, shooting.determinant(false));
-  start_log_size_ = branch_.last().log_size;
+  start_determinant_ = branch_.last();
 }
 
 template <int D>
@@ -149,7 +150,7 @@ scene::Status LoadGrowth<D>::run(Shooting<D>& shooting) {
   load_steps_ = 0;
   shooting.start_unloaded();
   const LoadBounds& bounds = shooting.bounds();
-  return grow(shooting, 1 / std::max(1.0, bounds.load_length * bounds.load_length + bounds.turn_rad));
+  return grow(shooting, bounds.load_length * bounds.load_length + bounds.turn_rad);
 }
 
 // A fold is where steps lead nowhere and the determinant has all but vanished.
@@ -162,19 +163,23 @@ scene::Status LoadGrowth<D>::run_on(Shooting<D>& shooting) {
   shooting.set_nodes(start_);
   shooting.set_load(0);
   load_steps_ = 0;
-  end_.status = grow(shooting, 1);
+  const LoadWay& way = shooting.rod().way();
+  end_.status = grow(shooting, size_of_change(way.from, way.to));
   const bool fold = end_.status == scene::Status::load_step_too_small && watches_determinant_ &&
-                    branch_.last().log_size < start_log_size_ + std::log(limit_point_determinant);
+                    scene::log_fall(start_determinant_, branch_.last()) > -std::log(limit_point_determinant);
   return end_.status = fold ? scene::Status::limit_point : end_.status;
 }
 
 template <int D>
-scene::Status LoadGrowth<D>::grow(Shooting<D>& shooting, double first_step) {
+scene::Status LoadGrowth<D>::grow(Shooting<D>& shooting, double size) {
   load_factor_ = previous_factor_ = 0;
   if (!shooting.newton(shooting.newton_tolerance())) return end_.status = scene::Status::not_converged;
   start_watch(shooting);
-  first_step_ = first_step;
-  double step = first_step;
+  // No farther than to where the determinant can vanish, for all that one load tells; a taut rod slackens first.
+  const scene::Determinant& start = branch_.last();
+  const double nearness = watches_determinant_ ? std::min(1.0, std::exp(start.log_size)) : 1;
+  const double size_to_zero = nearness * (1 + start.log_growth * start.log_growth / 4);
+  double step = first_step_ = size_to_zero / std::max(size_to_zero, size);
   while (load_factor_ < 1) {
     if (watches_determinant_) step = std::min(step, branch_.longest_step(load_factor_));
     if (gives_up(shooting, step)) return end_.status;

@@ -53,7 +53,8 @@ class LoadGrowth {
  private:
   using Nodes = std::vector<SectionState<D>>;
 
-  scene::Status grow(Shooting<D>& shooting, double first_step);
+  // size: of the change of the loads; 1 is too little to make a straight rod critical.
+  scene::Status grow(Shooting<D>& shooting, double size);
   void start_watch(const Shooting<D>& shooting);
   void predict(const Shooting<D>& shooting, double factor);
   std::optional<double> try_step(Shooting<D>& shooting, double to);
@@ -65,7 +66,7 @@ class LoadGrowth {
   Nodes previous_;       // at the last load but one
   double load_factor_ = 0, previous_factor_ = 0, first_step_ = 1;
   scene::BranchWatch branch_;
-  double start_log_size_ = 0;  // of the determinant where the way starts
+  scene::Determinant start_determinant_;  // where the way starts
   bool watches_determinant_ = false;
   bool watches_stability_ = false;  // the loads have an energy, and the rod was stable so far
   bool may_fall_ = false;           // where its symmetry can hold it

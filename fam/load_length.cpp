@@ -8,15 +8,18 @@ using scene::Span;
 
 namespace {
 
+Vector3d stiffness_of(const Span& span) {
+  return {span.stiffness.torsion_Nmm2, span.stiffness.bending_Nmm2[0], span.stiffness.bending_Nmm2[1]};
+}
+
 // Strain k of an arc that turns by k h, and the moment m = K (k - k0) - tendons' of its section.
 struct ArcMoment {
   Vector3d strain_per_mm, moment_Nmm;
   Vector3d stiffness_Nmm2;
   double scale;  // of m x k
 
-  ArcMoment(const scene::Span& span, const Vector3d& turn_rad, double h_mm)
-      : strain_per_mm(turn_rad / h_mm),
-        stiffness_Nmm2(span.stiffness.torsion_Nmm2, span.stiffness.bending_Nmm2[0], span.stiffness.bending_Nmm2[1]) {
+  ArcMoment(const scene::Span& span, const Vector3d& strain_per_mm_)
+      : strain_per_mm(strain_per_mm_), stiffness_Nmm2(stiffness_of(span)) {
     const Vector3d elastic_Nmm = stiffness_Nmm2.cwiseProduct(strain_per_mm - span.rest_curvature_per_mm);
     const Vector3d tendons_Nmm = straight_tendons(span).moment_Nmm;
     moment_Nmm = elastic_Nmm - tendons_Nmm;
@@ -75,6 +78,32 @@ double largest_load_length(std::span<const Span> spans, std::span<const int> arc
   return largest;
 }
 
+double size_of_change(std::span<const Span> from, std::span<const Span> to) {
+  double force_N = 0, moment_Nmm = 0, load_length = 0, turn_rad = 0;
+  for (std::size_t i = to.size(); i-- > 0;) {
+    const Span &a = from[i], &b = to[i];
+    const double stiffness_Nmm2 = least_stiffness_Nmm2(b), length_mm = b.length_mm();
+    force_N += (b.follower_load_S.force_N - a.follower_load_S.force_N).norm() +
+               (b.fixed_load_B.force_N - a.fixed_load_B.force_N).norm() +
+               length_mm * ((b.follower_force_S_N_per_mm - a.follower_force_S_N_per_mm).norm() +
+                            (b.fixed_force_B_N_per_mm - a.fixed_force_B_N_per_mm).norm());
+    moment_Nmm += (b.follower_load_S.moment_Nmm - a.follower_load_S.moment_Nmm).norm() +
+                  (b.fixed_load_B.moment_Nmm - a.fixed_load_B.moment_Nmm).norm() +
+                  (b.fixed_force_arms_BS_Nmm - a.fixed_force_arms_BS_Nmm).norm();
+    const double tendons_Nmm = (straight_tendons(b).moment_Nmm - straight_tendons(a).moment_Nmm).norm();
+    load_length += length_mm * std::sqrt(force_N / stiffness_Nmm2);
+    turn_rad += length_mm * ((moment_Nmm + tendons_Nmm) / stiffness_Nmm2 +
+                             (b.rest_curvature_per_mm - a.rest_curvature_per_mm).norm());
+  }
+  return load_length * load_length + turn_rad;
+}
+
+double swing_rate_per_mm(const Span& span, const Vector3d& moment_Nmm) {
+  const Vector3d bending_Nmm = moment_Nmm + straight_tendons(span).moment_Nmm;
+  const ArcMoment state(span, span.rest_curvature_per_mm + bending_Nmm.cwiseQuotient(stiffness_of(span)));
+  return std::max(state.rate_per_mm(), state.strain_per_mm.norm());
+}
+
 template <int D>
 double largest_swing_rad(std::span<const Span> spans, std::span<const int> arcs_per_span,
                          std::span<const BasicArc<D>> arcs) {
@@ -86,7 +115,7 @@ double largest_swing_rad(std::span<const Span> spans, std::span<const int> arcs_
     const double length_mm = spans[i].length_mm() / arcs_per_span[i];
     for (int k = 0; k < arcs_per_span[i]; ++k, ++arc) {
       if constexpr (D == 3) {
-        const ArcMoment state(spans[i], arc->screw.rotation, length_mm);
+        const ArcMoment state(spans[i], arc->screw.rotation / length_mm);
         if (free_of_force && state.is_steady()) continue;
         largest = std::max(largest, length_mm * state.rate_per_mm());
       }

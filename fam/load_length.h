@@ -70,6 +70,14 @@ struct OneEach {
 // The largest load length by forces of an arc, with the least stiffness of its span.
 double largest_load_length(std::span<const scene::Span> spans, std::span<const int> arcs_per_span);
 
+// What the difference of the loads of two rods with the same cuts would do alone: the square of its load length, and
+// the turn by its moments, tendons and rest curvature in rad.
+double size_of_change(std::span<const scene::Span> from, std::span<const scene::Span> to);
+
+// How fast a section with this total moment m (section frame) turns along the rod, or small changes of m grow or swing,
+// if that is more: sqrt(|tr J^2| / 2), J as below.
+double swing_rate_per_mm(const scene::Span& span, const Vector3d& moment_Nmm);
+
 // How far the solved arcs swing, the largest of clamp to tip: the turn of one, or in space what its moment m grows or
 // swings by about the solution, if that is more: sqrt(|tr J^2| / 2) h, with J the derivative of m x k (m' = m x k, k
 // the strain) with respect to m. Arcs that no force acts on are exact where m lies along k, and in the plane always,

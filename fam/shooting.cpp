@@ -43,6 +43,7 @@ void Shooting<D>::reserve(const Room& room) {
   rod_.reserve(room);
   segments_.reserve(room.arcs);
   nodes_.reserve(room.arcs);
+  softness_.reserve(room.arcs);
   system_.reserve(unknowns * room.arcs);
   few_counts_.reserve(room.spans);
   const std::size_t few = std::max(room.arcs / 4, room.spans);
@@ -63,6 +64,7 @@ void Shooting<D>::cut_into_segments() {
   const bool planar = scene::plane_direction(bounds).has_value();
   bounds_ = {};
   segments_.clear();
+  softness_.assign(1, 0);
   double since_cut = 0;
   int end_arc = rod_.arc_count();
   walk_from_tip(bounds, rod_.arcs_per_span(), [&](const LoadedCell& arc) {
@@ -82,13 +84,17 @@ void Shooting<D>::cut_into_segments() {
     }
     if (since_cut > 0 && since_cut + load_length > segment_load_length) {
       segments_.push_back({arc.cell + 1, end_arc});
+      softness_.push_back(0);
       end_arc = arc.cell + 1;
       since_cut = 0;
     }
     since_cut += load_length;
+    const Eigen::Vector2d& bending_Nmm2 = arc.span.stiffness.bending_Nmm2;
+    softness_.back() += arc.length_mm * bending_Nmm2.tail<D - 1>().cwiseSqrt().cwiseInverse().sum();
   });
   segments_.push_back({0, end_arc});
   std::reverse(segments_.begin(), segments_.end());
+  std::reverse(softness_.begin(), softness_.end());
   nodes_.resize(segments_.size());
   if (segments_.size() > 1) system_.resize(unknowns * static_cast<int>(segments_.size()) - rotations - D);
 }
@@ -284,9 +290,19 @@ bool Shooting<D>::solve_from(const Shooting& fewer) {
   return solve_from_here();
 }
 
+// Of a taut rod the determinant is cosh(int sqrt(n_x / EI) ds) for each plane of bending.
+template <int D>
+double Shooting<D>::log_growth() const {
+  double sum = 0;
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    sum += softness_[k] * std::sqrt(std::max(0.0, nodes_[k].wrench.force_N[0]));
+  }
+  return sum;
+}
+
 template <int D>
 scene::Determinant Shooting<D>::determinant(bool exact) const {
-  if (segments_.size() > 1) return {system_.log_determinant(), system_.determinant_is_negative()};
+  if (segments_.size() > 1) return {system_.log_determinant(), system_.determinant_is_negative(), log_growth()};
   SegmentEquations equations;
   if (exact) evaluate_segment<rotations>(0, equations);
   const double determinant =

@@ -107,6 +107,7 @@ class Shooting {
   void assemble(int k, const SegmentEquations& equations);
   bool newton_one_segment(bool fresh_slope, double tolerance);
   bool newton_segments(double tolerance);
+  double log_growth() const;
   double apply(const Eigen::Ref<const Eigen::VectorXd>& step);
   double force_unit() const { return least_stiffness_Nmm2_ / (length_mm_ * length_mm_); }
   double moment_unit() const { return least_stiffness_Nmm2_ / length_mm_; }
@@ -118,6 +119,7 @@ class Shooting {
   LoadBounds bounds_;
   std::vector<ArcRange> segments_;
   std::vector<Node> nodes_;
+  std::vector<double> softness_;  // of each segment: length over the root of EI, summed over the planes of bending
   BandSystem<rotations + unknowns - 1, 2 * unknowns - rotations - 1> system_;  // of several segments
   Eigen::Matrix<double, rotations, rotations> slope_;                          // of one segment
   bool has_few_arcs_ = false;

@@ -7,16 +7,19 @@ namespace scene {
 struct Determinant {
   double log_size = 0;
   bool negative = false;
+  double log_growth = 0;  // of that, what a taut rod makes of its tension, which has no zero: a bound is enough
 };
+// How far the logarithm of the size has fallen, for another reason than that the rod has become less taut.
+double log_fall(const Determinant& from, const Determinant& to);
 
 class BranchWatch {
  public:
   // Whether the determinant has changed its sign since the last load.
   bool has_left(const Determinant& now) const;
 
-  // From a load near the last: share_of_zero of the way to where the line through the last two determinants meets zero,
-  // infinite if ahead it does not. Beyond it the sign may be the old one again, where two branches part or two roots
-  // lie together.
+  // From a load near the last: share_of_zero of the way to where the line through the last two determinants, by their
+  // log_fall, meets zero, infinite if ahead it does not. Beyond it the sign may be the old one again, where two
+  // branches part or two roots lie together.
   double longest_step(double from_load_factor) const;
 
   // The branch goes on here.
