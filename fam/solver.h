@@ -35,12 +35,13 @@ struct Parameter {
 };
 
 // Memory is taken in make() only: for Options::reserved_arcs, the estimate's finer run included; loads that need more
-// end in tolerance_not_met. (Where more arcs than reserved are asked for, make() takes what its loads need to be solved;
-// estimates, derivatives and loads of other kinds take more when they are asked for first.) Arcs are chosen anew in solve() by a priori bounds; error_estimate_mm() proves the
-// tolerance. make and set_... throw scene::SceneError on wrong input (index, kind, NaN, a negative tension, a place off
-// the rod) and leave the solver as it was. Getters give NaN before a converged solve, and for an s or an index out of
-// range; they speak of the solution found last, which later set_... do not change. Different solvers may be used by
-// different threads at once; one solver only by one, getters included.
+// end in tolerance_not_met. (Where more arcs than reserved are asked for, make() takes what its loads need to be
+// solved; estimates, derivatives and loads of other kinds take more when they are asked for first.) Arcs are chosen
+// anew in solve() by a priori bounds; error_estimate_mm() proves the tolerance. make and set_... throw
+// scene::SceneError on wrong input (index, kind, NaN, a negative tension, a place off the rod) and leave the solver as
+// it was. Getters give NaN before a converged solve, and for an s or an index out of range; they speak of the solution
+// found last, which later set_... do not change. Different solvers may be used by different threads at once; one solver
+// only by one, getters included.
 class Solver {
  public:
   // Refuses what the law cannot solve (published).
@@ -91,7 +92,8 @@ class Solver {
   std::optional<bool> stable() const;
 
   // Derivatives of the pose at s: 6 rows, d position_B (mm) and d rotation_B (rad; dR R^T = [d rotation_B]x), all
-  // else held. NaN also for the law `published`.
+  // else held. Where the solution's arcs are too long for small changes (out of the plane of a circle) those of a finer
+  // run. NaN also for the law `published`, and where that takes more arcs than are reserved.
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   using Matrix63 = Eigen::Matrix<double, 6, 3>;
   using Vector6 = Eigen::Matrix<double, 6, 1>;
