@@ -28,8 +28,7 @@ StrainChange strain_change(const BasicArcConstants<3>& arc, const Screw& strain,
     result.rotation = A.template topLeftCorner<3, 3>() * moment;
     if constexpr (with_shear) {
       result.rotation += A.template topRightCorner<3, 3>() * force;
-      result.translation =
-          A.template bottomLeftCorner<3, 3>() * moment + A.template bottomRightCorner<3, 3>() * force;
+      result.translation = A.template bottomLeftCorner<3, 3>() * moment + A.template bottomRightCorner<3, 3>() * force;
     }
   }
   if constexpr (!with_shear) result.translation.setZero();
@@ -152,7 +151,8 @@ ArcVariation<N> vary_by_numbers(Law law, const BasicArcConstants<3>& arc, const 
     };
     BasicWrench<Number, 3> w{varied(wrench.force_N, change.force_N), varied(wrench.moment_Nmm, change.moment_Nmm)};
     ArcForces<Number, 3> along;
-    if (forces) along = {varied(forces->follower_S_N, change.follower_S_N), varied(forces->fixed_D_N, change.fixed_D_N)};
+    if (forces)
+      along = {varied(forces->follower_S_N, change.follower_S_N), varied(forces->fixed_D_N, change.fixed_D_N)};
     BasicScrew<Number, 3> screw;
     if (law == Law::midpoint) midpoint_step(section, forces ? &along : nullptr, w, screw);
     else fourth_order_step(section, forces ? &along : nullptr, w, screw);
@@ -219,13 +219,12 @@ template <bool with_shear, int N>
 ArcVariation<N> vary(Law law, const BasicArcConstants<3>& arc, const ArcForces<double, 3>* forces,
                      const SectionWrench& wrench, const ArcChange<N>& change) {
   if (law != Law::sixth_order) return vary_by_numbers<with_shear>(law, arc, forces, wrench, change);
-  if (N == 9 || (N == 3 && forces)) return vary_by_series<with_shear, N == 6 ? 6 : 7>(arc, forces, wrench, change);
-  return vary_by_series<with_shear, N == 9 ? 7 : 6>(arc, forces, wrench, change);
+  if (N == 9 || (N == 3 && forces)) return vary_by_series < with_shear, N == 6 ? 6 : 7 > (arc, forces, wrench, change);
+  return vary_by_series < with_shear, N == 9 ? 7 : 6 > (arc, forces, wrench, change);
 }
 
 template <bool with_shear>
-StrainVariation vary_section(const BasicArcConstants<3>& arc, const SectionWrench& wrench,
-                             const ArcChange<3>& change) {
+StrainVariation vary_section(const BasicArcConstants<3>& arc, const SectionWrench& wrench, const ArcChange<3>& change) {
   StrainVariation result;
   result.strain = strain_under<with_shear>(arc, wrench);
   result.pulls = tendon_pulls(arc.tendons, result.strain);

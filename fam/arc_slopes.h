@@ -28,12 +28,15 @@ struct ArcChange {
 
 // One of each component of the wrench, six; N = 9: and of a fixed distributed force.
 template <int N>
-ArcChange<N> unit_changes() {
-  ArcChange<N> change;
-  change.force_N.template leftCols<3>().setIdentity();
-  change.moment_Nmm.template middleCols<3>(3).setIdentity();
-  if constexpr (N == 9) change.fixed_D_N.template rightCols<3>().setIdentity();
-  return change;
+const ArcChange<N>& unit_changes() {
+  static const ArcChange<N> changes = [] {
+    ArcChange<N> change;
+    change.force_N.template leftCols<3>().setIdentity();
+    change.moment_Nmm.template middleCols<3>(3).setIdentity();
+    if constexpr (N == 9) change.fixed_D_N.template rightCols<3>().setIdentity();
+    return change;
+  }();
+  return changes;
 }
 
 // What an arc does, in its distal frame: Q, from the distal end's axes to the proximal one's; the way from the proximal

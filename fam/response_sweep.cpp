@@ -93,7 +93,8 @@ SectionWrench Response::linearise(std::size_t i, std::size_t k) {
     return {};
   }
   const ArcForces<double, 3> forces = forces_on(i, constants_.length_mm, R);
-  const ArcVariation<9> variation = vary_arc(solution_.law, solution_.model, constants_, &forces, wrench, unit_changes<9>());
+  const ArcVariation<9> variation =
+      vary_arc(solution_.law, solution_.model, constants_, &forces, wrench, unit_changes<9>());
   to_base<12>(R, variation.slopes, arc.slopes);
   arc.way_mm = R * variation.way_D_mm;
   return {R * variation.gain_D.force_N, R * variation.gain_D.moment_Nmm};

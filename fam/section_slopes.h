@@ -80,7 +80,7 @@ class SectionSlopes {
   bool has_tendons() const { return !arc_.tendons.empty(); }
   const Vector3d& angular_compliance() const { return arc_.angular_compliance; }
   const Vector3d& linear_compliance() const { return arc_.linear_compliance; }
-  const Square& compliance(std::size_t k) const { return compliance_[k]; }        // A; only with tendons
+  const Square& compliance(std::size_t k) const { return compliance_[k]; }       // A; only with tendons
   const Square& tendon_stiffness(std::size_t k) const { return stiffness_[k]; }  // S; only with tendons
 
   // The changes of the wrench that a changed constant is.

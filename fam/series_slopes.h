@@ -32,7 +32,7 @@ Pair3 product(const Matrix& A, const Pair3& b) {
 }
 // Columns first and first + 1; beyond the last there are zeros.
 template <class Slopes>
-Pair3 columns(const Slopes& from, int first) {
+[[gnu::always_inline]] inline Pair3 columns(const Slopes& from, int first) {
   const auto row = [&](int i) { return Pair{from(i, first), first + 1 < from.cols() ? from(i, first + 1) : 0}; };
   return {row(0), row(1), row(2)};
 }
@@ -54,10 +54,11 @@ inline ScrewPair operator+(const ScrewPair& a, const ScrewPair& b) {
 inline ScrewPair operator*(double factor, const ScrewPair& a) {
   return {factor * a.rotation, factor * a.translation};
 }
-inline ScrewPair bracket(const Screw& a, const ScrewPair& da, const Screw& b, const ScrewPair& db) {
+[[gnu::always_inline]] inline ScrewPair bracket(const Screw& a, const ScrewPair& da, const Screw& b,
+                                                const ScrewPair& db) {
   return {cross(da.rotation, b.rotation) + cross(a.rotation, db.rotation),
-          cross(da.rotation, b.translation_mm) + cross(a.rotation, db.translation) +
-              cross(da.translation, b.rotation) + cross(a.translation_mm, db.rotation)};
+          cross(da.rotation, b.translation_mm) + cross(a.rotation, db.translation) + cross(da.translation, b.rotation) +
+              cross(a.translation_mm, db.rotation)};
 }
 
 // An arc's series, and what the slopes ask of it more than once.
@@ -126,7 +127,8 @@ class SeriesSlopes {
   };
 
   // The strain under the wrench and what a changed constant is worth.
-  void set_strain(Terms& d, const ConstantSeries<terms>* constant, int first, std::size_t k) const {
+  [[gnu::always_inline]] void set_strain(Terms& d, const ConstantSeries<terms>* constant, int first,
+                                         std::size_t k) const {
     if (!section_.has_tendons()) {
       Pair3 force = d.force[k], moment = d.moment[k];
       if (constant) force += columns(constant->force[k], first), moment += columns(constant->moment[k], first);
@@ -191,8 +193,7 @@ class SeriesSlopes {
     }
     const ScrewPair b = bracket(a1_, d1, a2_, d2);
     const ScrewPair middle = bracket(a1_, d1, inner_, (1 / 360.) * d3 + (-1 / 720.) * b);
-    return whole + (1 / 12.) * b + bracket(a1_, d1, middle_, middle) +
-           bracket(a2_, d2, outer_, (-1 / 240.) * (d3 + b));
+    return whole + (1 / 12.) * b + bracket(a1_, d1, middle_, middle) + bracket(a2_, d2, outer_, (-1 / 240.) * (d3 + b));
   }
 
   const Series& s_;
