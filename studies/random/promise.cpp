@@ -4,14 +4,12 @@
 #include "fam/solve.h"
 #include "scene/load_visitor.h"
 #include "studies/compare/error_measures.h"
+#include "studies/report/progress.h"
 #include "studies/scenes/random_scene.h"
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <mutex>
-#include <thread>
 #include <variant>
 
 namespace studies {
@@ -81,12 +79,6 @@ int needed_arcs(const scene::Scene& scene, const scene::Equilibrium& truth, doub
 
 }  // namespace
 
-std::uint64_t promise_seed(std::uint64_t index) {
-  const std::uint64_t ten = index / 10, place = index % 10;
-  if (place < 5) return 5 * ten + place;
-  return place == 5 ? first_buckling_seed + ten : first_family_seed + 4 * ten + (place - 6);
-}
-
 std::uint64_t estimate_seed(std::uint64_t index) {
   return first_family_seed + families.size() * (index / 2) + index % 2;
 }
@@ -125,21 +117,10 @@ Promise promise_of(std::uint64_t seed, bool count_needed) {
 std::vector<Promise> all_promises(std::uint64_t scenes, std::uint64_t (*seed_of)(std::uint64_t),
                                   Progress::Style style) {
   std::vector<Promise> promises(scenes);
-  Progress progress("promise", scenes, style);
-  std::mutex reporting;
-  std::atomic<std::uint64_t> next = 0;
-  const auto work = [&] {
-    for (std::uint64_t i = next++; i < scenes; i = next++) {
-      const bool count_needed = i / 10 % 4 == 0;  // a quarter of the scenes, all kinds and tolerances
-      promises[i] = promise_of(seed_of(i), count_needed);
-      if (i % 100 != 99) continue;
-      const std::lock_guard<std::mutex> lock(reporting);
-      progress.at(i, "scenes");
-    }
-  };
-  std::thread other(work);
-  work();
-  other.join();
+  in_parallel(scenes, "promise", style, [&](std::uint64_t i) {
+    const bool count_needed = i / 10 % 4 == 0;  // a quarter of the scenes, all kinds and tolerances
+    promises[i] = promise_of(seed_of(i), count_needed);
+  });
   return promises;
 }
 

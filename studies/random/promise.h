@@ -26,10 +26,6 @@ struct Promise {
   bool solved() const { return judged && status == "converged"; }
 };
 
-// The seed of scene 0, 1, 2, ... of the promise: of ten five are general, one buckles, four are of the families
-// (random_scene.h).
-std::uint64_t promise_seed(std::uint64_t index);
-
 // The seed of scene 0, 1, 2, ... of the estimates: strips and heavy rods in turn.
 std::uint64_t estimate_seed(std::uint64_t index);
 

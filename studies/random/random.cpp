@@ -4,6 +4,7 @@
 #include "studies/random/blocks.h"
 #include "studies/random/page.h"
 #include "studies/report/provenance.h"
+#include "studies/scenes/random_scene.h"
 #include "studies/study.h"
 
 namespace studies {
@@ -24,7 +25,7 @@ void random(const StudyOptions& options) {
   const std::filesystem::path folder = options.output / "random", blocks = folder / "blocks";
   for (const auto& [from, to] : sizes.seeds) run_blocks(from, to, blocks, options.progress);
   second_opinions(blocks);
-  const RandomData data{all_outcomes(blocks), all_promises(sizes.promises, promise_seed, options.progress),
+  const RandomData data{all_outcomes(blocks), all_promises(sizes.promises, mixed_seed, options.progress),
                         all_promises(sizes.estimates, estimate_seed, options.progress)};
   write_results(folder, "fam-studies random", random_files(data, options.pages / "random" / "page.md"));
 }

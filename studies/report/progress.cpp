@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cmath>
+#include <mutex>
+#include <thread>
 
 #include <unistd.h>
 
@@ -45,6 +48,24 @@ void Progress::at(std::size_t done, const std::string& what) {
 
 double Progress::elapsed_s() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void in_parallel(std::uint64_t count, const std::string& name, Progress::Style style,
+                 const std::function<void(std::uint64_t)>& work) {
+  Progress progress(name, count, style);
+  std::mutex reporting;
+  std::atomic<std::uint64_t> next = 0;
+  const auto take = [&] {
+    for (std::uint64_t i = next++; i < count; i = next++) {
+      work(i);
+      if (i % 100 != 99) continue;
+      const std::lock_guard<std::mutex> lock(reporting);
+      progress.at(i, "scenes");
+    }
+  };
+  std::thread other(take);
+  take();
+  other.join();
 }
 
 }  // namespace studies

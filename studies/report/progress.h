@@ -3,7 +3,9 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <string>
 
 namespace studies {
@@ -39,5 +41,9 @@ class Progress {
 
 // "0:07", "12:30", "1:02:03".
 std::string clock_text(double seconds);
+
+// work(0) ... work(count - 1), in no order, shared out over two threads.
+void in_parallel(std::uint64_t count, const std::string& name, Progress::Style style,
+                 const std::function<void(std::uint64_t)>& work);
 
 }  // namespace studies

@@ -320,6 +320,12 @@ class Drawing {
 
 }  // namespace
 
+std::uint64_t mixed_seed(std::uint64_t index) {
+  const std::uint64_t ten = index / 10, place = index % 10;
+  if (place < 5) return 5 * ten + place;
+  return place == 5 ? first_buckling_seed + ten : first_family_seed + 4 * ten + (place - 6);
+}
+
 std::string kind_of(std::uint64_t seed) {
   if (seed < first_buckling_seed) return "general";
   return seed < first_family_seed ? "buckling" : families[(seed - first_family_seed) % families.size()];

@@ -26,6 +26,9 @@ constexpr std::uint64_t first_buckling_seed = 100'000;
 constexpr std::uint64_t first_family_seed = 200'000;
 constexpr std::array<const char*, 6> families{"strips", "heavy rods", "coiled rods", "tendons", "cables", "soft shear"};
 
+// The seed of scene 0, 1, 2, ... of a mix: of ten five are general, one buckles, four are of the families.
+std::uint64_t mixed_seed(std::uint64_t index);
+
 // What the scenes of this seed are called: "general", "buckling", or a family.
 std::string kind_of(std::uint64_t seed);
 
