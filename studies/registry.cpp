@@ -22,7 +22,8 @@ namespace studies {
                           row(work_precision, "Which method is fastest at my accuracy?", "3 min", false)        \
                               row(stability, "Where does each method fail?", "1 min", false)                    \
                                   row(stream, "How fast is a kept solver on a stream of loads?", "10 s", false) \
-                                      row(random, "Is an answer ever wrong without saying so?", "30 min", true)
+                                      row(walks, "Does a kept solver stay on its branch?", "15 min", true)      \
+                                          row(random, "Is an answer ever wrong without saying so?", "30 min", true)
 
 #define DECLARE(function, question, time, full) void function(const StudyOptions&);
 STUDY_ROWS(DECLARE)
