@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t block = 1000, finite_elements_every = 100;
+constexpr std::uint64_t block = 500, finite_elements_every = 100;
 constexpr unsigned work_limit_s = 5;  // of processor time for one scene
 
 std::vector<RandomOutcome> read_outcomes(const fs::path& path) {

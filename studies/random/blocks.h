@@ -1,4 +1,4 @@
-// Runs random scenes in blocks of 1000 seeds, each block's outcomes in a file of its own: a run resumes where it was
+// Runs random scenes in blocks of 500 seeds, each block's outcomes in a file of its own: a run resumes where it was
 // stopped, and several processes share one folder. A scene that takes more than five seconds of processor time is
 // stopped and counted as "work limit".
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace studies {
 
-// FROM and TO: multiples of 1000. On two processors. Every 100th scene by finite elements, too.
+// FROM and TO: multiples of 500. On two processors. Every 100th scene by finite elements, too.
 void run_blocks(std::uint64_t from, std::uint64_t to, const std::filesystem::path& folder, Progress::Style style);
 
 // Of all blocks of a folder, by seed.

@@ -42,12 +42,12 @@ void add_random_commands(CLI::App& random, const Progress::Style& progress, std:
   const CLI::Validator whole_blocks(
       [](const std::string& text) {
         return text.size() <= 12 && text.find_first_not_of("0123456789") == std::string::npos &&
-                       std::strtoull(text.c_str(), nullptr, 10) % 1000 == 0
+                       std::strtoull(text.c_str(), nullptr, 10) % 500 == 0
                    ? std::string()
-                   : "must be a multiple of 1000";
+                   : "must be a multiple of 500";
       },
-      "MULTIPLE OF 1000");
-  CLI::App* run = add("run", "Solve and judge the scenes FROM..TO-1 (multiples of 1000)", [&a, &progress] {
+      "MULTIPLE OF 500");
+  CLI::App* run = add("run", "Solve and judge the scenes FROM..TO-1 (multiples of 500)", [&a, &progress] {
     run_blocks(a.from, a.to, a.folder, progress);
     return 0;
   });
@@ -67,7 +67,7 @@ void add_random_commands(CLI::App& random, const Progress::Style& progress, std:
   sum->add_option("output", a.output)->required();
 
   CLI::App* promise = add("promise", "Is the tolerance kept?", [&a, &progress] {
-    return write_all(promise_tables(all_promises(a.scenes, promise_seed, progress)), a.output);
+    return write_all(promise_tables(all_promises(a.scenes, mixed_seed, progress)), a.output);
   });
   CLI::App* estimates = add("estimates", "Is an estimate below half the error? Strips and heavy rods", [&a, &progress] {
     return write_all(estimate_tables(all_promises(a.scenes, estimate_seed, progress)), a.output);
