@@ -4,6 +4,7 @@
 #include "fam/boundary_value.h"
 #include "fam/march.h"
 #include "fam/solve.h"
+#include "fam/solver.h"
 #include "scene/scene_file.h"
 
 #include <benchmark/benchmark.h>
@@ -63,6 +64,26 @@ void boundary_value(const std::string& case_name, int arcs) {
   });
 }
 
+// A kept solver from no load; then also its compliance at the tip and the derivatives by all loads there.
+void cold_solve(const std::string& case_name, bool with_derivatives) {
+  const std::string name = std::string(with_derivatives ? "solve_and_differentiate/" : "solve/") + case_name;
+  benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+    const scene::Scene scene = scene::read_scene_file(STUDY_CASES_DIR "/" + case_name + ".json");
+    fam::Options options;
+    options.tolerance_mm = 1e-4 * scene::length_mm(scene);
+    auto made = fam::Solver::make(scene, options);
+    fam::Solver& solver = std::get<fam::Solver>(made);
+    const double tip_mm = scene::length_mm(scene);
+    while (state.KeepRunning()) {
+      if (!solver.solve(fam::Solver::Start::unloaded).converged()) state.SkipWithError("not converged");
+      if (!with_derivatives) continue;
+      benchmark::DoNotOptimize(solver.compliance(tip_mm));
+      for (std::size_t i = 0; i < scene.loads.size(); ++i) benchmark::DoNotOptimize(solver.by_load(i, tip_mm));
+    }
+    state.SetLabel(std::to_string(solver.s_mm().size() - 1) + " arcs");
+  });
+}
+
 template <int below, int above>
 void band(const std::string& name, int size) {
   benchmark::RegisterBenchmark(("band_solver/" + name + "/" + std::to_string(size)).c_str(),
@@ -104,6 +125,11 @@ int main(int argc, char** argv) {
     boundary_value<3>("study1/P2_fixed", arcs);
     boundary_value<3>("study1/S4_fixed", arcs);
     boundary_value<2>("work_precision/work_precision_load_10", arcs);
+  }
+  for (const char* name :
+       {"study1/S4_follower", "study1/P4_follower", "study1/S4_fixed", "study1/P2_fixed", "stream/catheter"}) {
+    cold_solve(name, false);
+    cold_solve(name, true);
   }
   band<4, 6>("planar", 33);
   band<11, 14>("spatial", 75);
