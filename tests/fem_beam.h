@@ -4,9 +4,20 @@
 
 #include "fem_benchmark.h"
 
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <cmath>
 #include <numbers>
 
 namespace fem_beam {
+
+using Eigen::Vector3d;
+using fem_benchmark::bare;
+using fem_benchmark::solved;
+using fem_reference::Options;
+using scene::Frame;
+using support::uniform_rod;
 
 constexpr double pi = std::numbers::pi;
 

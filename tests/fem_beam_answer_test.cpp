@@ -1,21 +1,10 @@
 // What the finite element beam answers: loads along a rod of two sections, stations, statuses.
 #include "fem_beam.h"
 
-#include <gtest/gtest.h>
-#include <Eigen/Geometry>
-
-#include <cmath>
-
 namespace {
 
 using namespace fem_beam;
-using Eigen::Vector3d;
-using fem_benchmark::bare;
-using fem_benchmark::solved;
-using fem_reference::Options;
 using fem_reference::RodModel;
-using scene::Frame;
-using support::uniform_rod;
 
 // By scipy DOP853 shooting at rtol 1e-12, Newton on the clamp's rotation to 1e-11; independent of this project.
 struct Reference {

@@ -1,20 +1,9 @@
 // The finite element beam's order, locking and invariance.
 #include "fem_beam.h"
 
-#include <gtest/gtest.h>
-#include <Eigen/Geometry>
-
-#include <cmath>
-
 namespace {
 
 using namespace fem_beam;
-using Eigen::Vector3d;
-using fem_benchmark::bare;
-using fem_benchmark::solved;
-using fem_reference::Options;
-using scene::Frame;
-using support::uniform_rod;
 
 scene::Scene spatial_load(const scene::Stiffness& k) {
   return uniform_rod(

@@ -1,23 +1,12 @@
 // The finite element beam against closed forms, published benchmarks and independent solutions.
 #include "fem_beam.h"
 
-#include <gtest/gtest.h>
-#include <Eigen/Geometry>
-
-#include <cmath>
-
 namespace {
 
 using namespace fem_beam;
-using Eigen::Vector3d;
-using fem_benchmark::bare;
-using fem_benchmark::solved;
-using fem_reference::Options;
 using fem_reference::RodModel;
-using scene::Frame;
 using support::number;
 using support::read_csv;
-using support::uniform_rod;
 
 // --- closed forms ---------------------------------------------------------------------------------------------------
 

@@ -178,6 +178,24 @@ TEST(Derivatives, OfAPlanarRodOutOfItsPlane) {
   expect_differences(rod, Arcs::many);
 }
 
+// A follower moment bends a strip to a circle, exact with a single arc; what bends it sideways then turns by 5 rad. The
+// kept solver's slopes against those of 400 arcs, and those of few arcs, which must fail.
+TEST(Derivatives, OfACircleOutOfItsPlane) {
+  scene::Stiffness strip = slender(60, 0.17);
+  strip.bending_Nmm2[0] = 0.22;
+  const double L = 1.6;
+  const Scene scene = uniform_rod(L, strip, {Moment{L, Frame::follower, {0, 0, -0.67}}});
+  fam::Options options;
+  options.tolerance_mm = 1e-6 * L;
+  auto made = fam::Solver::make(scene, options);
+  auto& solver = std::get<fam::Solver>(made);
+  ASSERT_TRUE(solver.solve().converged());
+  SolvedRod fine(scene, 400), coarse(scene, static_cast<int>(solver.s_mm().size()) - 1);
+  const Eigen::Matrix<double, 6, 6> expected = fine.response().compliance(L, What::pose);
+  EXPECT_LE(mismatch(solver.compliance(L), expected), 1e-5);
+  EXPECT_GE(mismatch(coarse.response().compliance(L, What::pose), expected), 1e-2) << "the twin, arcs of the circle";
+}
+
 // A fixed wrench at the tip arrives at the clamp whole: its force, and its moment there with that of the tip's way
 // under the force that it had. Limit: round-off of the carried wrench.
 TEST(Derivatives, BalanceTheLoads) {

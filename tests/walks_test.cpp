@@ -110,6 +110,15 @@ TEST(Walks, ExactWaysEndAlikeWhereThereIsOneEquilibrium) {
   EXPECT_GE((along.tip().position_B_mm - twin.tip().position_B_mm).norm(), 1e-3 * L) << "the twin, pushed less";
 }
 
+// Walks that need more arcs at their start than the bounds on the loads ask for.
+TEST(Walks, StartWithMoreArcsWhereTheShapeNeedsThem) {
+  for (const std::uint64_t seed : {318, 200350}) {
+    const std::vector<studies::WalkStep> steps = studies::walk(seed);
+    ASSERT_EQ(steps.size(), static_cast<std::size_t>(studies::steps_of_walk));
+    for (const studies::WalkStep& step : steps) EXPECT_EQ(step.outcome, "as cold") << seed << ", step " << step.step;
+  }
+}
+
 // Random walks; 10 000 are judged in results/walks. None of these ends on another branch, and one in a hundred steps
 // may stop where the exact reference goes on.
 TEST(Walks, RandomOnesEndAsTheExactReference) {

@@ -57,47 +57,6 @@ def test_results_are_read_only_views(rod):
             array[0] = 0
 
 
-def test_a_row_that_fails_is_nan(rod, circle):
-    circle["loads"] = [{"kind": "force", "at": "tip", "frame": "fixed", "value_N": [0, 0, 0]}]
-    r = fam.solve_batch(circle, [(0, "y")], [[0.1], [5], [0.2]], arcs=1)  # too long an arc for 5 N
-    assert r.status == ["converged"] * 20 and r.error_estimate_mm.shape == (20,)
-    solver = fam.Solver(rod)
-    for k, (x, y, tension_N, z) in enumerate(values(20)):
-        solver.set_force_N(0, [x, y, 0.3])
-        solver.set_tension_N(1, tension_N)
-        solver.set_acceleration_m_per_s2(2, [0, 0, z])
-        assert solver.solve("unloaded").converged
-        assert np.array_equal(r.position_mm[k], solver.tip_position_mm)
-        assert r.error_estimate_mm[k] == solver.error_estimate_mm()
-        w, *v = r.rotation_wxyz[k]
-        cross = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
-        rotation = np.eye(3) + 2 * w * cross + 2 * cross @ cross
-        assert w >= 0 and np.abs(rotation - solver.tip_rotation).max() < 1e-14
-    assert np.ptp(r.position_mm, axis=0).min() > 0.1  # the values did arrive
-
-
-def test_arrays_as_they_come(rod):
-    plain = values(6)
-    expected = fam.solve_batch(rod, COLUMNS, plain).position_mm
-    for same in plain.tolist(), np.asfortranarray(plain), np.hstack([plain, plain])[:, :4], plain.astype(np.longdouble):
-        assert np.array_equal(fam.solve_batch(rod, COLUMNS, same).position_mm, expected)
-    columns = [list(column) for column in COLUMNS], tuple(COLUMNS), [(np.int64(i), name) for i, name in COLUMNS]
-    for same in columns:
-        assert np.array_equal(fam.solve_batch(rod, same, plain).position_mm, expected)
-    assert np.array_equal(fam.solve_batch(rod, COLUMNS, plain[::-1]).position_mm, expected[::-1])
-    assert fam.solve_batch(rod, COLUMNS, np.zeros((0, 4))).position_mm.shape == (0, 3)
-    whole = fam.solve_batch(rod, [(0, "x")], np.array([[1], [2]]))
-    assert whole.status == ["converged"] * 2
-
-
-def test_results_are_read_only_views(rod):
-    r = fam.solve_batch(rod, COLUMNS, values(3))
-    for array in r.position_mm, r.rotation_wxyz, r.error_estimate_mm:
-        assert array.base is r
-        with pytest.raises(ValueError):
-            array[0] = 0
-
-
 def test_a_row_that_fails_is_nan(rod):
     r = fam.solve_batch(rod, [(0, "y")], [[0.1], [500], [0.2]], arcs=1)  # too long an arc for 500 N
     assert [status == "converged" for status in r.status] == [True, False, True]
