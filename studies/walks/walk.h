@@ -13,14 +13,20 @@ namespace studies {
 constexpr int steps_of_walk = 3;
 constexpr double walk_tolerance = 1e-4, walk_exact_tolerance = 1e-9;  // over L
 
-// One step: from loads that were solved, or from the walk's first ones, on to others.
+// One step: from loads that were solved, or from the walk's first ones, on to others. The exact reference goes the same
+// way.
 //
-//   as cold             the cold solve's shape, to twice the tolerance
-//   as exact            another shape, or the cold solve has none; the exact reference's by the same way, to the
-//   tolerance tolerance missed    farther from that, up to 1e-2 L wrong               farther still no judge another
-//   shape than the cold solve's, and the exact reference does not come through stopped, rightly    limit_point or
-//   another failure, and the exact reference stops on this step, too stopped             it comes through stopped, no
-//   judge   it stopped on a step before
+// clang-format off
+//   as cold               the cold solve's shape, to twice the tolerance
+//   as exact              another shape, or the cold solve has none: the exact reference's, to the tolerance
+//   told by the estimate  farther from that, and the solver's error estimate is as large
+//   tolerance missed      the estimate is smaller; up to 1e-2 L
+//   wrong                 farther still
+//   no judge              another shape than the cold one, and the exact reference does not come through
+//   stopped, rightly      limit_point or another failure, and the exact reference stops on this step, too
+//   stopped               it comes through
+//   stopped, no judge     it stopped on a step before
+// clang-format on
 struct WalkStep {
   std::uint64_t seed = 0;  // of random_scene
   int step = 0;

@@ -15,8 +15,9 @@ namespace {
 
 constexpr std::uint64_t walks_of_study = 10'000, walks_of_quick_study = 1000;
 
-const char* const outcomes[] = {"as cold",  "as exact",         "tolerance missed", "wrong",
-                                "no judge", "stopped, rightly", "stopped",          "stopped, no judge"};
+const char* const outcomes[] = {"as cold",          "as exact", "told by the estimate",
+                                "tolerance missed", "wrong",    "no judge",
+                                "stopped, rightly", "stopped",  "stopped, no judge"};
 
 Table counts_table(const std::vector<WalkStep>& steps) {
   std::map<std::string, int> counts;
@@ -55,6 +56,7 @@ void walks(const StudyOptions& options) {
   page.set("steps", std::to_string(steps.size()));
   for (const auto& [name, outcome] : {std::pair{"as_cold", "as cold"},
                                       {"as_exact", "as exact"},
+                                      {"told", "told by the estimate"},
                                       {"missed", "tolerance missed"},
                                       {"wrong", "wrong"},
                                       {"rightly", "stopped, rightly"},
