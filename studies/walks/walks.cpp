@@ -64,9 +64,11 @@ void walks(const StudyOptions& options) {
     page.set(name, std::to_string(count(steps, outcome)));
   }
   page.set("counts", counts_table(steps).markdown());
-  const std::string answer =
-      fmt::format("of {} steps of random walks {} end on another branch than the exact reference by the same way",
-                  steps.size(), count(steps, "wrong"));
+  const std::string answer = fmt::format(
+      "of {} steps of random walks {} end as a cold solve does, {} as the exact reference by the same way, {} "
+      "elsewhere by "
+      "it",
+      steps.size(), count(steps, "as cold"), count(steps, "as exact"), count(steps, "wrong"));
   write_results(options.output / "walks", "fam-studies walks",
                 {{"README.md", page.fill(options.pages / "walks" / "page.md")},
                  {"counts.csv", counts_table(steps).csv()},
