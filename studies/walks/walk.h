@@ -35,8 +35,10 @@ struct WalkStep {
   double error = 0;  // over L: from the cold solve, or from the exact reference where that was asked
 };
 
-// The steps of the walk that starts from a random scene; none where its first loads are not solved.
-std::vector<WalkStep> walk(std::uint64_t seed);
+// The steps of the walk that starts from a random scene; none where its first loads are not solved. Judge::exact: the
+// cold solve is not asked, and no step is "as cold".
+enum class Judge { cold_first, exact };
+std::vector<WalkStep> walk(std::uint64_t seed, Judge judge = Judge::cold_first);
 
 // By two threads, in the order of the seeds mixed_seed(0), mixed_seed(1), ...
 std::vector<WalkStep> all_walks(std::uint64_t walks, Progress::Style style);
