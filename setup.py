@@ -19,6 +19,7 @@ class CMakeBuild(build_ext):
         generator = ["-G", "Ninja"] if shutil.which("ninja") else []
         subprocess.run(
             ["cmake", "-S", project, "-B", scratch, *generator, "-DCMAKE_BUILD_TYPE=Release", "-DFAM_STUDIES=OFF",
+             "-DCMAKE_UNITY_BUILD=ON",
              f"-DPython3_EXECUTABLE={sys.executable}"], check=True)
         subprocess.run(["cmake", "--build", scratch, "--target", "fam_python"], check=True)
         to = pathlib.Path(self.get_ext_fullpath(extension.name))

@@ -11,7 +11,7 @@ namespace fam {
 namespace {
 
 using Columns = Response::Columns;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 Vector3d arm_of(const scene::Force& force) {
   return {0, force.offset_mm[0], force.offset_mm[1]};
@@ -107,7 +107,7 @@ void Response::set_place_jumps(Sweep& sweep) {
 Columns Response::rows(const Source& source, double s_mm, What what) {
   const Sweep& sweep = swept(source);
   const Place place = place_of(s_mm);
-  if (!place.valid) return Columns::Constant(nan);
+  if (!place.valid) return Columns::Constant(no_number);
   const Arc& arc = arcs_[place.arc];
   const Node& node = sweep.nodes[place.arc];
   Section section{solution_.poses[place.arc + 1].rotation_BS, arc.force_N, arc.moment_Nmm, node.turn, node.shift_mm,
@@ -185,7 +185,7 @@ Eigen::Matrix<double, 6, 6> Response::compliance(double s_mm, What what) {
 
 Columns Response::by_load(std::size_t load, double s_mm, What what) {
   const scene::Scene& scene = *solution_.scene;
-  if (load >= scene.loads.size()) return Columns::Constant(nan);
+  if (load >= scene.loads.size()) return Columns::Constant(no_number);
   if (scene::tendon_of(scene.loads[load])) return rows({Kind::tension, load}, s_mm, what);
   const auto* force = load_of<scene::Force>(scene, load);
   const auto* moment = load_of<scene::Moment>(scene, load);
@@ -204,18 +204,18 @@ Columns Response::by_load(std::size_t load, double s_mm, What what) {
 }
 
 Columns Response::by_rest_curvature(std::size_t section, double s_mm, What what) {
-  if (section >= solution_.scene->sections.size()) return Columns::Constant(nan);
+  if (section >= solution_.scene->sections.size()) return Columns::Constant(no_number);
   return rows({Kind::rest_curvature, section}, s_mm, what);
 }
 
 Columns Response::by_stiffness(std::size_t section, double s_mm, What what) {
-  if (section >= solution_.scene->sections.size()) return Columns::Constant(nan);
+  if (section >= solution_.scene->sections.size()) return Columns::Constant(no_number);
   return rows({Kind::stiffness, section}, s_mm, what);
 }
 
 Columns Response::by_place(std::size_t load, double s_mm, What what) {
   if (!load_of<scene::Force>(*solution_.scene, load) && !load_of<scene::Moment>(*solution_.scene, load)) {
-    return Columns::Constant(nan);
+    return Columns::Constant(no_number);
   }
   return rows({Kind::place, load}, s_mm, what);
 }

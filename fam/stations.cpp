@@ -10,10 +10,10 @@ namespace fam {
 namespace {
 
 constexpr int intervals = 40;
-constexpr double largest_turn_rad = 0.5;
+constexpr double largest_piece_turn_rad = 0.5;
 
 // A place in an arc; s = L k/40 and span ends must be stations, others may.
-struct Place {
+struct StationPlace {
   double s_mm;
   int arc;
   double fraction;
@@ -22,9 +22,9 @@ struct Place {
 
 // All candidates in order, without the clamp; each arc's interior is cut so that no piece turns far.
 template <int D>
-std::vector<Place> places(std::span<const scene::Span> spans, const SolvedRod<D>& rod) {
+std::vector<StationPlace> places(std::span<const scene::Span> spans, const SolvedRod<D>& rod) {
   const double length_mm = spans.back().end_mm;
-  std::vector<Place> result;
+  std::vector<StationPlace> result;
   int next = 1;  // of s = L next/40
   for (std::size_t i = 0; i < spans.size(); ++i) {
     const SpanArcs<D>& arcs = rod.spans[i];
@@ -35,7 +35,7 @@ std::vector<Place> places(std::span<const scene::Span> spans, const SolvedRod<D>
       const BasicArc<D>& solved = rod.arcs[static_cast<std::size_t>(arc)];
       const double turn =
           solved.screw.rotation.norm() + std::abs(solved.twist_before_rad) + std::abs(solved.twist_after_rad);
-      const int pieces = static_cast<int>(std::clamp(std::ceil(turn / largest_turn_rad), 1.0, 1e4));
+      const int pieces = static_cast<int>(std::clamp(std::ceil(turn / largest_piece_turn_rad), 1.0, 1e4));
       const double start_mm = spans[i].start_mm + k * h_mm;
       for (int piece = 1; piece <= pieces; ++piece) {
         const double end = static_cast<double>(piece) / pieces;
@@ -58,14 +58,14 @@ std::vector<Place> places(std::span<const scene::Span> spans, const SolvedRod<D>
 
 // The places that are needed: turns of the rod from one kept to the next are the sum of those between.
 template <int D>
-std::vector<Place> thinned(std::vector<Place> all, const SolvedRod<D>& rod) {
-  std::vector<Place> kept;
+std::vector<StationPlace> thinned(std::vector<StationPlace> all, const SolvedRod<D>& rod) {
+  std::vector<StationPlace> kept;
   double turned = 0, fraction_before = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const BasicArc<D>& arc = rod.arcs[static_cast<std::size_t>(all[i].arc)];
     const double turn = arc.screw.rotation.norm() + std::abs(arc.twist_before_rad) + std::abs(arc.twist_after_rad);
     const double step = turn * (all[i].fraction - fraction_before);
-    if (turned > 0 && turned + step > largest_turn_rad && !all[i - 1].required) {
+    if (turned > 0 && turned + step > largest_piece_turn_rad && !all[i - 1].required) {
       kept.push_back(all[i - 1]);
       turned = 0;
     }
@@ -135,7 +135,7 @@ void set_shape(scene::Equilibrium& result, const scene::Scene& scene, std::span<
   BasicShape<D> shape;
   shape.set(rod);
   result.stations = {station<D>(0, shape.section(0, 0), rotation_BP)};
-  for (const Place& place : thinned(places(spans, rod), rod)) {
+  for (const StationPlace& place : thinned(places(spans, rod), rod)) {
     result.stations.push_back(station<D>(place.s_mm, shape.section(place.arc, place.fraction), rotation_BP));
   }
   result.tendon_shortening_mm = shortenings_mm(scene, spans, rod, shape, rotation_BP);

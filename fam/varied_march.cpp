@@ -113,8 +113,8 @@ bool vary_step(const LoadedRod<3>& rod, const SpanArcs<3>& span, SectionState<3>
   fields.moment_Nmm -= skew(wrench.moment_Nmm) * turn;
   fields.force_N -= force * turn;
   fields.turn -= turn;
-  const auto rotate = [&](auto& matrix) {
-    for (int column = 0; column < matrix.cols(); ++column) matrix.col(column) = arc.motion.rotate(matrix.col(column));
+  const auto rotate = [&motion = arc.motion](auto& matrix) {
+    for (int column = 0; column < matrix.cols(); ++column) matrix.col(column) = motion.rotate(matrix.col(column));
   };
   rotate(fields.turn);
   rotate(fields.force_N);

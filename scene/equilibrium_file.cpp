@@ -1,14 +1,13 @@
 #include "scene/equilibrium_file.h"
 
+#include "scene/json_file.h"
+
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 
 namespace scene {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json list(const Eigen::Vector3d& v) {
   return {v[0], v[1], v[2]};

@@ -1,12 +1,9 @@
+#include "scene/json_file.h"
 #include "scene/load_visitor.h"
 #include "scene/scene_file.h"
 
-#include <nlohmann/json.hpp>
-
 namespace scene {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 template <class Vector>
 Json list(const Vector& values) {

@@ -29,7 +29,7 @@ scene::Stiffness with_shear(scene::Stiffness stiffness, double axial_N, double s
   return stiffness;
 }
 
-scene::Equilibrium solved(const scene::Scene& scene, RodModel model = RodModel::reissner, int order = 2) {
+scene::Equilibrium solved_with(const scene::Scene& scene, RodModel model = RodModel::reissner, int order = 2) {
   Options options;
   options.model = model;
   options.order = order;
@@ -49,7 +49,7 @@ scene::Scene column(double euler_loads, double push_N = 0) {
 TEST(FemStability, EulerColumn) {
   for (const int order : {1, 2, 3}) {
     for (const auto& [load, stable] : {std::pair(0.999, true), std::pair(1.001, false)}) {
-      const scene::Equilibrium found = solved(column(load), RodModel::kirchhoff, order);
+      const scene::Equilibrium found = solved_with(column(load), RodModel::kirchhoff, order);
       EXPECT_EQ(found.stable, stable) << order << " " << load;
       EXPECT_LT((found.tip().position_B_mm - Vector3d(40, 0, 0)).norm(), 1e-9) << order << " " << load;
     }
@@ -64,10 +64,10 @@ TEST(FemStability, ColumnThatStretchesAndShears) {
     return uniform_rod(L, with_shear(slender(EI, 500), EA, kGA),
                        {scene::Force{L, Frame::fixed, {-factor * critical_N, 0, 0}}});
   };
-  EXPECT_EQ(solved(pressed(0.9999)).stable, true);
-  EXPECT_EQ(solved(pressed(1.0001)).stable, false);
+  EXPECT_EQ(solved_with(pressed(0.9999)).stable, true);
+  EXPECT_EQ(solved_with(pressed(1.0001)).stable, false);
   // Without stretch and shear the same rod carries 12 % more.
-  EXPECT_EQ(solved(pressed(1.0001), RodModel::kirchhoff).stable, true);
+  EXPECT_EQ(solved_with(pressed(1.0001), RodModel::kirchhoff).stable, true);
   // Full integration eliminates more forces than there are displacements.
   Options full;
   full.full_integration = true;
@@ -77,14 +77,14 @@ TEST(FemStability, ColumnThatStretchesAndShears) {
 }
 
 TEST(FemStability, PushedColumnBuckles) {
-  const scene::Equilibrium found = solved(column(1.05, 1e-3));
+  const scene::Equilibrium found = solved_with(column(1.05, 1e-3));
   EXPECT_GT(found.tip().position_B_mm.y(), 10);
   EXPECT_EQ(found.stable, true);
   // Pushed the other way it is the mirror image.
-  const scene::Equilibrium mirrored = solved(column(1.05, -1e-3));
+  const scene::Equilibrium mirrored = solved_with(column(1.05, -1e-3));
   EXPECT_NEAR(mirrored.tip().position_B_mm.y(), -found.tip().position_B_mm.y(), 1e-8);
   // Nothing tells it which way.
-  const scene::Equilibrium straight = solved(column(1.05));
+  const scene::Equilibrium straight = solved_with(column(1.05));
   EXPECT_LT(std::abs(straight.tip().position_B_mm.y()), 1e-9);
   EXPECT_EQ(straight.stable, false);
 }
@@ -94,10 +94,10 @@ TEST(FemStability, HeavyColumn) {
     const double weight_N_per_mm = load * 7.8373 * 750 / std::pow(40, 3);
     return uniform_rod(40, slender(750, 500), {scene::DistributedForce{0, 40, Frame::fixed, {-weight_N_per_mm, 0, 0}}});
   };
-  EXPECT_EQ(solved(heavy(0.995)).stable, true);
-  EXPECT_EQ(solved(heavy(1.005)).stable, false);
+  EXPECT_EQ(solved_with(heavy(0.995)).stable, true);
+  EXPECT_EQ(solved_with(heavy(1.005)).stable, false);
   // It hangs however heavy.
-  EXPECT_EQ(solved(heavy(-10)).stable, true);
+  EXPECT_EQ(solved_with(heavy(-10)).stable, true);
 }
 
 TEST(FemStability, StripBucklesSideways) {
@@ -107,12 +107,12 @@ TEST(FemStability, StripBucklesSideways) {
     return uniform_rod(1, stiffness, {scene::Force{1, Frame::fixed, {0, 0, load * 4.0126}}});
   };
   for (const scene::Stiffness& stiffness : {strip, with_shear(strip, 1e6, 1e6)}) {
-    EXPECT_EQ(solved(loaded(stiffness, 0.99)).stable, true);
-    EXPECT_EQ(solved(loaded(stiffness, 1.01)).stable, false);
+    EXPECT_EQ(solved_with(loaded(stiffness, 0.99)).stable, true);
+    EXPECT_EQ(solved_with(loaded(stiffness, 1.01)).stable, false);
     // Stiffer in torsion it does not buckle.
     scene::Stiffness stiffer = stiffness;
     stiffer.torsion_Nmm2 = 1.1;
-    EXPECT_EQ(solved(loaded(stiffer, 1.01)).stable, true);
+    EXPECT_EQ(solved_with(loaded(stiffer, 1.01)).stable, true);
   }
 }
 
@@ -121,21 +121,21 @@ TEST(FemStability, LargeFixedForce) {
     return uniform_rod(40, slender(1500, 1000), {scene::Force{40, Frame::fixed, 100 * direction}});
   };
   for (const RodModel model : {RodModel::kirchhoff, RodModel::reissner}) {
-    EXPECT_EQ(solved(pushed({-0.3, 0.8, 0.6}), model).stable, true);
-    EXPECT_EQ(solved(pushed({-0.3, 0, 0}), model).stable, false);  // 13 times the Euler load, straight
+    EXPECT_EQ(solved_with(pushed({-0.3, 0.8, 0.6}), model).stable, true);
+    EXPECT_EQ(solved_with(pushed({-0.3, 0, 0}), model).stable, false);  // 13 times the Euler load, straight
   }
 }
 
 TEST(FemStability, TendonsDoNotBuckleARod) {
   const scene::Tendon tendon{{1, 0.5}, 30, 40};  // 26 times the Euler load
   const scene::Stiffness stiffness = with_shear(slender(750, 500), 333, 99);
-  EXPECT_EQ(solved(uniform_rod(40, stiffness, {tendon})).stable, true);
-  EXPECT_EQ(solved(uniform_rod(40, stiffness, {scene::Force{40, Frame::fixed, {-30, 0, 0}}})).stable, false);
+  EXPECT_EQ(solved_with(uniform_rod(40, stiffness, {tendon})).stable, true);
+  EXPECT_EQ(solved_with(uniform_rod(40, stiffness, {scene::Force{40, Frame::fixed, {-30, 0, 0}}})).stable, false);
 }
 
 TEST(FemStability, OnlyConservativeLoadsAreDecided) {
   const auto loaded = [](const std::vector<scene::Load>& loads) {
-    return solved(uniform_rod(40, slender(750, 500), loads)).stable;
+    return solved_with(uniform_rod(40, slender(750, 500), loads)).stable;
   };
   const scene::Load dead = scene::Force{40, Frame::fixed, {0, 1, 0}};
   EXPECT_EQ(loaded({scene::Force{40, Frame::follower, {0, 1, 0}}}), std::nullopt);
@@ -176,7 +176,7 @@ TEST(FemStability, AColumnPushedByAFollowerBuckles) {
   const auto pushed = [](double push_N) {
     scene::Scene scene = column(1.05);
     scene.loads.push_back(scene::Force{40, Frame::follower, {0, push_N, 0}});
-    return solved(scene);
+    return solved_with(scene);
   };
   const scene::Equilibrium found = pushed(1e-3);
   EXPECT_EQ(found.stable, std::nullopt);

@@ -98,15 +98,21 @@ bool is_accuracy_file(const fs::path& path) {
   return name != "provenance.json" && name.rfind("timing", 0) != 0;
 }
 
-TEST(Results, AreWhatTheStudiesWrite) {
+// Of the study that the environment names.
+TEST(Results, AreWhatTheStudyWrites) {
+  const char* given = std::getenv("RESULTS_STUDY");
+  ASSERT_TRUE(given);
+  const std::string study = given;
+  std::string as_command = study;
+  std::replace(as_command.begin(), as_command.end(), '_', '-');
   const fs::path folder = fs::temp_directory_path() / ("fam_results_test_" + std::to_string(getpid()));
   const std::string command =
-      std::string(FAM_STUDIES_COMMAND) + " " RESULTS_COMMAND " --quick --quiet --output " + folder.string();
+      FAM_STUDIES_COMMAND " " + as_command + " --quick --quiet --output " + folder.string();
   ASSERT_EQ(std::system(command.c_str()), 0);
   int compared = 0;
-  for (const auto& entry : fs::directory_iterator(fs::path(RESULTS_DIR) / RESULTS_STUDY)) {
+  for (const auto& entry : fs::directory_iterator(fs::path(RESULTS_DIR) / study)) {
     if (entry.is_directory() || !is_accuracy_file(entry.path())) continue;
-    const fs::path again = folder / RESULTS_STUDY / entry.path().filename();
+    const fs::path again = folder / study / entry.path().filename();
     EXPECT_EQ(first_difference(untimed(contents(entry.path())), untimed(contents(again))), "") << entry.path();
     ++compared;
   }

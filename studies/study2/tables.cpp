@@ -9,7 +9,7 @@
 namespace studies {
 namespace {
 
-const std::string ours = "Forces of our own (studies/cases/study2/study2*.json); the paper's are lost. mm, base frame.";
+const std::string about_loads = "Forces of our own (studies/cases/study2/study2*.json); the paper's are lost. mm, base frame.";
 
 // Smaller errors do not matter on half a metre of catheter and are not told apart but in errors_along.csv.
 constexpr double told_mm = 1e-5;
@@ -26,7 +26,7 @@ std::string shapes_csv(const Study2Data& data) {
       table.add({r.scene, r.method, fixed(r.s_mm[i], 1), fixed(p[0], 4), fixed(p[1], 4), fixed(p[2], 4)});
     }
   }
-  return table.csv({ours});
+  return table.csv({about_loads});
 }
 
 std::string errors_along_csv(const Study2Data& data) {
@@ -36,7 +36,7 @@ std::string errors_along_csv(const Study2Data& data) {
       if (r.method != "exact") table.add({r.scene, r.method, fixed(r.s_mm[i], 1), scientific(r.errors_mm[i], 2)});
     }
   }
-  return table.csv({ours, "Distance from the exact rod with shear at equal arc lengths."});
+  return table.csv({about_loads, "Distance from the exact rod with shear at equal arc lengths."});
 }
 
 std::string errors_csv(const Study2Data& data) {
@@ -50,7 +50,7 @@ std::string errors_csv(const Study2Data& data) {
                fixed(largest_deflection_mm(r), 4)});
   }
   return table.csv(
-      {ours, fmt::format("Errors: distance from the exact rod with shear at equal arc lengths, its {} stations.",
+      {about_loads, fmt::format("Errors: distance from the exact rod with shear at equal arc lengths, its {} stations.",
                          row(data, "study2", "exact").s_mm.size())});
 }
 
