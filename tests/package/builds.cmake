@@ -13,13 +13,14 @@ run(${CMAKE_COMMAND} --install ${FOLDER}/build --prefix ${FOLDER}/prefix)
 build_user(${FOLDER}/user -DCMAKE_PREFIX_PATH=${FOLDER}/prefix ${USER_OPTIONS})
 
 # Largest difference of any number of two CSV files, "none" where they do not have the same cells.
-set(difference "
+file(WRITE ${FOLDER}/difference.awk [[
   NR == FNR { line[FNR] = $0; lines = FNR; next }
-  { if (split(line[FNR], cell, \",\") != NF) bad = 1
+  { if (split(line[FNR], cell, ",") != NF) bad = 1
     for (i = 1; FNR > 1 && i <= NF; ++i) { d = $i - cell[i]; if (d < 0) d = -d; if (d > largest) largest = d } }
-  END { if (bad || FNR != lines || lines < 40) print \"none\"; else printf \"%.3g\", largest }")
+  END { if (bad || FNR != lines || lines < 40) print "none"; else printf "%.3g", largest }
+]])
 function(difference_of result file)
-  run(awk -F, ${difference} ${FOLDER}/default.csv ${file})
+  run(awk -F, -f ${FOLDER}/difference.awk ${FOLDER}/default.csv ${file})
   set(${result} ${output} PARENT_SCOPE)
 endfunction()
 function(solve_to file)
