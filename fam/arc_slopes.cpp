@@ -14,17 +14,17 @@ struct StrainChange {
 // The change of the strain (times h) by that of the wrench and of a constant.
 template <bool with_shear>
 StrainChange strain_change(const BasicArcConstants<3>& arc, const Screw& strain, Matrix3d force, Matrix3d moment,
-                           Constant constant, const Vector3d& tendon_arm_mm) {
+                           Constant constant, const TendonArms& tendon_arms) {
   const std::array<Vector3d, 1> rotation{strain.rotation}, translation{strain.translation_mm};
   const SectionSlopes<with_shear, 1> section(arc, rotation, translation);
   if (constant != Constant::none) {
-    const ConstantSeries<1> worth = section.constant_series(constant, tendon_arm_mm);
+    const ConstantSeries<1> worth = section.constant_series(constant, tendon_arms);
     force += worth.force[0];
     moment += worth.moment[0];
   }
   StrainChange result{arc.angular_compliance.asDiagonal() * moment, arc.linear_compliance.asDiagonal() * force};
   if (!arc.tendons.empty()) {
-    const auto& A = section.compliance(0);
+    const auto& A = section.compliance();
     result.rotation = A.template topLeftCorner<3, 3>() * moment;
     if constexpr (with_shear) {
       result.rotation += A.template topRightCorner<3, 3>() * force;
@@ -57,12 +57,12 @@ template <bool with_shear>
 struct DualSection {
   const BasicArcConstants<3>& arc;
   Constant constant;
-  const Vector3d& tendon_arm_mm;
+  const TendonArms& tendon_arms;
 
   BasicScrew<Number, 3> strain(const BasicWrench<Number, 3>& wrench) const {
     const Screw screw = strain_under<with_shear, 3>(arc, {value(wrench.force_N), value(wrench.moment_Nmm)});
     const StrainChange change = strain_change<with_shear>(arc, screw, slopes_of(wrench.force_N),
-                                                          slopes_of(wrench.moment_Nmm), constant, tendon_arm_mm);
+                                                          slopes_of(wrench.moment_Nmm), constant, tendon_arms);
     return {with_slopes(screw.rotation, change.rotation), with_slopes(screw.translation_mm, change.translation)};
   }
 };
@@ -142,7 +142,7 @@ void set_gain(const MotionSlopes& motion, const Pair3& force, const Pair3& momen
 template <bool with_shear, int N>
 ArcVariation<N> vary_by_numbers(Law law, const BasicArcConstants<3>& arc, const ArcForces<double, 3>* forces,
                                 const SectionWrench& wrench, const ArcChange<N>& change) {
-  const DualSection<with_shear> section{arc, change.constant, change.tendon_arm_mm};
+  const DualSection<with_shear> section{arc, change.constant, change.tendon_arms};
   ArcVariation<N> result;
   result.slopes.setZero();
   for (int three = 0; three < N; three += 3) {
@@ -197,7 +197,7 @@ ArcVariation<N> vary_by_series(const BasicArcConstants<3>& arc, const ArcForces<
   const SeriesSlopes<with_shear, terms> slopes(arc, s, forces);
   ConstantSeries<terms> constant;
   const bool varied = change.constant != Constant::none;
-  if (varied) constant = slopes.constant_series(change.constant, change.tendon_arm_mm);
+  if (varied) constant = slopes.constant_series(change.constant, change.tendon_arms);
   MotionSlopes motion(magnus<with_shear>(s));
   ArcVariation<N> result{motion.motion(), motion.way_mm(), {}, {}};
   if (forces) {
@@ -229,7 +229,7 @@ StrainVariation vary_section(const BasicArcConstants<3>& arc, const SectionWrenc
   result.strain = strain_under<with_shear>(arc, wrench);
   result.pulls = tendon_pulls(arc.tendons, result.strain);
   const StrainChange slopes = strain_change<with_shear>(arc, result.strain, change.force_N, change.moment_Nmm,
-                                                        change.constant, change.tendon_arm_mm);
+                                                        change.constant, change.tendon_arms);
   result.strain_slopes << slopes.rotation, slopes.translation;
 
   const std::array<Vector3d, 1> rotation{result.strain.rotation}, translation{result.strain.translation_mm};
@@ -240,7 +240,7 @@ StrainVariation vary_section(const BasicArcConstants<3>& arc, const SectionWrenc
     result.pull_slopes << by_strain.bottomRows<3>(), by_strain.topRows<3>();
   }
   if (change.constant == Constant::tension) {
-    const ConstantSeries<1> worth = section.constant_series(change.constant, change.tendon_arm_mm);
+    const ConstantSeries<1> worth = section.constant_series(change.constant, change.tendon_arms);
     result.pull_slopes.topRows<3>() -= worth.force[0];
     result.pull_slopes.bottomRows<3>() -= worth.moment[0];
   }

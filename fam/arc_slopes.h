@@ -8,6 +8,9 @@
 
 #include "scene/rod_model.h"
 
+#include <array>
+#include <optional>
+
 namespace fam {
 
 // N changes of a vector, a row for each of its components.
@@ -15,15 +18,16 @@ template <int N>
 using Slopes3 = Eigen::Matrix<double, 3, N, Eigen::RowMajor>;
 
 // N changes of what an arc meets: the wrench at its distal end, its distributed forces (times h, as ArcForces), and of
-// its section either nothing, or (N = 3) its rest curvature, its stiffness (GJ, EI_y, EI_z), or the tension of a tendon
-// (the first change; the tendon need not be among the section's).
+// its section either nothing, or (N = 3) its rest curvature, its stiffness (GJ, EI_y, EI_z), or the tensions of up to
+// three tendons (which need not be among the section's; one that is not given changes nothing).
 enum class Constant { none, rest_curvature, stiffness, tension };
+using TendonArms = std::array<std::optional<Vector3d>, 3>;  // mm
 template <int N>
 struct ArcChange {
   Slopes3<N> force_N = Slopes3<N>::Zero(), moment_Nmm = Slopes3<N>::Zero();
   Slopes3<N> follower_S_N = Slopes3<N>::Zero(), fixed_D_N = Slopes3<N>::Zero();
   Constant constant = Constant::none;
-  Vector3d tendon_arm_mm = Vector3d::Zero();
+  TendonArms tendon_arms{};
 };
 
 // One of each component of the wrench, six; N = 9: and of a fixed distributed force.

@@ -4,6 +4,7 @@
 
 #include "fam/skew.h"
 
+#include <algorithm>
 #include <limits>
 #include <string_view>
 
@@ -186,7 +187,7 @@ Eigen::Matrix<double, 6, 6> Response::compliance(double s_mm, What what) {
 Columns Response::by_load(std::size_t load, double s_mm, What what) {
   const scene::Scene& scene = *solution_.scene;
   if (load >= scene.loads.size()) return Columns::Constant(no_number);
-  if (scene::tendon_of(scene.loads[load])) return rows({Kind::tension, load}, s_mm, what);
+  if (scene::tendon_of(scene.loads[load])) return by_tension(load, s_mm, what);
   const auto* force = load_of<scene::Force>(scene, load);
   const auto* moment = load_of<scene::Moment>(scene, load);
   if (!force && !moment) return rows({Kind::distributed, load}, s_mm, what);
@@ -200,6 +201,16 @@ Columns Response::by_load(std::size_t load, double s_mm, What what) {
   if (!force->offset_mm.isZero(0)) {
     result += rows({Kind::moment, span}, s_mm, what) * skew(R * arm_of(*force)) * to_base;
   }
+  return result;
+}
+
+Columns Response::by_tension(std::size_t load, double s_mm, What what) {
+  const auto is_tendon = [](const scene::Load& other) { return scene::tendon_of(other) != nullptr; };
+  const auto first = solution_.scene->loads.begin();
+  const auto ordinal =
+      static_cast<std::size_t>(std::count_if(first, first + static_cast<std::ptrdiff_t>(load), is_tendon));
+  Columns result = Columns::Zero();
+  result.col(0) = rows({Kind::tension, ordinal / 3}, s_mm, what).col(static_cast<Eigen::Index>(ordinal % 3));
   return result;
 }
 

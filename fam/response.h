@@ -51,7 +51,8 @@ class Response {
   Columns by_place(std::size_t load, double s_mm, What what);
 
  private:
-  // force, moment: at the end of a span; distributed, tension, place: of a load; rest_curvature, stiffness: of a
+  // force, moment: at the end of a span; distributed, place: of a load; tension: of the
+  // 3 i-th to 3 i + 2nd tendon among the loads; rest_curvature, stiffness: of a
   // section.
   enum class Kind { none, force, moment, distributed, tension, rest_curvature, stiffness, place };
   struct Source {
@@ -109,10 +110,13 @@ class Response {
   void sweep_to_clamp(Sweep& sweep);
   void sweep_to_tip(Sweep& sweep) const;
   Columns rows(const Source& source, double s_mm, What what);
+  Columns by_tension(std::size_t load, double s_mm, What what);
   Section inside(const Source& source, const Place& place, const Section& distal);
   Columns strain_or_wrench(const Source& source, const Place& place, const Section& section, What what);
 
   bool acts_in(const Source& source, std::size_t span) const;
+  // Of a source's tendons, those that pass through a span.
+  TendonArms tendon_arms(const Source& source, std::size_t span) const;
   const scene::DistributedForce* distributed(const Source& source) const;
   bool brings_forces(const Source& source, std::size_t span) const;
   Eigen::Matrix<double, 12, 3> source_in(const Source& source, std::size_t span, std::size_t arc) const;

@@ -33,6 +33,22 @@ Response::Place Response::place_of(double s_mm) const {
   return {i, first_arcs_[i] + static_cast<std::size_t>(end) - 1, part > same_part ? part : 0, true};
 }
 
+TendonArms Response::tendon_arms(const Source& source, std::size_t i) const {
+  const scene::Span& span = solution_.spans[i];
+  TendonArms arms;
+  std::size_t ordinal = 0;
+  for (const scene::Load& load : solution_.scene->loads) {
+    const scene::Tendon* tendon = scene::tendon_of(load);
+    if (!tendon) continue;
+    const bool passes = (span.start_mm + span.end_mm) / 2 < tendon->to_mm;
+    if (passes && ordinal / 3 == source.index) {
+      arms[ordinal % 3] = Vector3d(0, tendon->offset_mm[0], tendon->offset_mm[1]);
+    }
+    ++ordinal;
+  }
+  return arms;
+}
+
 // Whether the source changes an arc of this span.
 bool Response::acts_in(const Source& source, std::size_t i) const {
   const scene::Span& span = solution_.spans[i];
@@ -40,7 +56,10 @@ bool Response::acts_in(const Source& source, std::size_t i) const {
   switch (source.kind) {
     case Kind::rest_curvature:
     case Kind::stiffness: return section_of_span_[i] == source.index;
-    case Kind::tension: return middle_mm < std::get<scene::Tendon>(solution_.scene->loads[source.index]).to_mm;
+    case Kind::tension: {
+      const TendonArms arms = tendon_arms(source, i);
+      return arms[0] || arms[1] || arms[2];
+    }
     case Kind::distributed:
       if (const scene::DistributedForce* force = distributed(source)) {
         return force->from_mm < middle_mm && middle_mm < force->to_mm;
@@ -71,9 +90,8 @@ void Response::add_source(const Source& source, std::size_t i, double length_mm,
   if (source.kind == Kind::rest_curvature) change.constant = Constant::rest_curvature;
   if (source.kind == Kind::stiffness) change.constant = Constant::stiffness;
   if (source.kind == Kind::tension) {
-    const Eigen::Vector2d& offset_mm = std::get<scene::Tendon>(solution_.scene->loads[source.index]).offset_mm;
     change.constant = Constant::tension;
-    change.tendon_arm_mm = {0, offset_mm[0], offset_mm[1]};
+    change.tendon_arms = tendon_arms(source, i);
   }
   if (source.kind != Kind::distributed) return;
   const scene::DistributedForce* force = distributed(source);

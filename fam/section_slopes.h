@@ -1,9 +1,9 @@
 // A section's compliance, its tendons included, along an arc: what a change of the wrench does to the strain.
 //
 // With the strain X = (u, v) h, its tendons' t = v + u x r = B X and their directions d = t/|t| (fam/tendon.h) a change
-// of the wrench W = (m, n) gives dX = A dW, (I + C S) A = C, S = sum T/|t| B^T (1 - d d^T) B. Taylor series of all of
-// them along the arc follow from that of X. Changes of constants are changes of W, as the strain feels them: K of the
-// rest curvature, -(u - u0) of the stiffness K, -B^T d of a tension.
+// of the wrench W = (m, n) gives dX = C (dW - S dX), S = sum T/|t| B^T (1 - d d^T) B, whose Taylor series along the arc
+// follows from that of X: with A = (I + C S_0)^-1 C, dX_k = A (dW_k - sum_{j>0} S_j dX_{k-j}). Changes of constants are
+// changes of W, as the strain feels them: K of the rest curvature, -(u - u0) of the stiffness K, -B^T d of a tension.
 #pragma once
 
 #include "fam/arc_section.h"
@@ -69,28 +69,27 @@ class SectionSlopes {
     compliance.template head<3>() = arc.angular_compliance;
     if constexpr (with_shear) compliance.template tail<3>() = arc.linear_compliance;
     const Square C = compliance.asDiagonal();
-    compliance_[0] = (Square::Identity() + C * stiffness_[0]).partialPivLu().solve(C);
-    for (std::size_t k = 1; k < terms; ++k) {
-      Square sum = Square::Zero();
-      for (std::size_t j = 1; j <= k; ++j) sum += stiffness_[j] * compliance_[k - j];
-      compliance_[k] = -compliance_[0] * sum;
-    }
+    compliance_ = (Square::Identity() + C * stiffness_[0]).partialPivLu().solve(C);
   }
 
   bool has_tendons() const { return !arc_.tendons.empty(); }
   const Vector3d& angular_compliance() const { return arc_.angular_compliance; }
   const Vector3d& linear_compliance() const { return arc_.linear_compliance; }
-  const Square& compliance(std::size_t k) const { return compliance_[k]; }       // A; only with tendons
-  const Square& tendon_stiffness(std::size_t k) const { return stiffness_[k]; }  // S; only with tendons
+  const Square& compliance() const { return compliance_; }                       // A at the distal end; with tendons
+  const Square& tendon_stiffness(std::size_t k) const { return stiffness_[k]; }  // S; with tendons
 
   // The changes of the wrench that a changed constant is.
-  ConstantSeries<terms> constant_series(Constant constant, const Vector3d& tendon_arm_mm) const {
+  ConstantSeries<terms> constant_series(Constant constant, const TendonArms& tendon_arms) const {
     ConstantSeries<terms> result;
     if (constant == Constant::tension) {
-      const TendonSeries<terms> tendon(tendon_arm_mm, rotation_, translation_);
-      for (std::size_t k = 0; k < terms; ++k) {
-        result.moment[k].col(0) = -tendon_arm_mm.cross(tendon.direction[k]);
-        result.force[k].col(0) = -tendon.direction[k];
+      for (int i = 0; i < 3; ++i) {
+        const std::optional<Vector3d>& arm_mm = tendon_arms[static_cast<std::size_t>(i)];
+        if (!arm_mm) continue;
+        const TendonSeries<terms> tendon(*arm_mm, rotation_, translation_);
+        for (std::size_t k = 0; k < terms; ++k) {
+          result.moment[k].col(i) = -arm_mm->cross(tendon.direction[k]);
+          result.force[k].col(i) = -tendon.direction[k];
+        }
       }
     } else if (constant == Constant::stiffness) {
       for (std::size_t k = 0; k < terms; ++k) result.moment[k].diagonal() = -rotation_[k] / arc_.length_mm;
@@ -126,7 +125,8 @@ class SectionSlopes {
 
   const BasicArcConstants<3>& arc_;
   const Series &rotation_, &translation_;
-  std::array<Square, terms> stiffness_, compliance_;  // S and A; not set without tendons
+  std::array<Square, terms> stiffness_;  // S
+  Square compliance_;                    // neither is set without tendons
 };
 
 }  // namespace fam

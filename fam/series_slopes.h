@@ -117,8 +117,8 @@ class SeriesSlopes {
     return slopes;
   }
 
-  ConstantSeries<terms> constant_series(Constant constant, const Vector3d& arm_mm) const {
-    return section_.constant_series(constant, arm_mm);
+  ConstantSeries<terms> constant_series(Constant constant, const TendonArms& tendon_arms) const {
+    return section_.constant_series(constant, tendon_arms);
   }
 
  private:
@@ -137,20 +137,24 @@ class SeriesSlopes {
       if constexpr (with_shear) d.translation[k] = {l[0] * force.x, l[1] * force.y, l[2] * force.z};
       return;
     }
-    Pair3 rotation{}, translation{};
-    for (std::size_t j = 0; j <= k; ++j) {
-      Pair3 force = d.force[k - j], moment = d.moment[k - j];
-      if (constant) force += columns(constant->force[k - j], first), moment += columns(constant->moment[k - j], first);
-      const auto& A = section_.compliance(j);
-      rotation += product(A.template topLeftCorner<3, 3>(), moment);
+    Pair3 force = d.force[k], moment = d.moment[k];
+    if (constant) force += columns(constant->force[k], first), moment += columns(constant->moment[k], first);
+    for (std::size_t j = 1; j <= k; ++j) {
+      const auto S = -section_.tendon_stiffness(j);
+      moment += product(S.template topLeftCorner<3, 3>(), d.rotation[k - j]);
       if constexpr (with_shear) {
-        rotation += product(A.template topRightCorner<3, 3>(), force);
-        translation += product(A.template bottomLeftCorner<3, 3>(), moment);
-        translation += product(A.template bottomRightCorner<3, 3>(), force);
+        moment += product(S.template topRightCorner<3, 3>(), d.translation[k - j]);
+        force += product(S.template bottomLeftCorner<3, 3>(), d.rotation[k - j]);
+        force += product(S.template bottomRightCorner<3, 3>(), d.translation[k - j]);
       }
     }
-    d.rotation[k] = rotation;
-    if constexpr (with_shear) d.translation[k] = translation;
+    const auto& A = section_.compliance();
+    d.rotation[k] = product(A.template topLeftCorner<3, 3>(), moment);
+    if constexpr (with_shear) {
+      d.rotation[k] += product(A.template topRightCorner<3, 3>(), force);
+      d.translation[k] = product(A.template bottomLeftCorner<3, 3>(), moment);
+      d.translation[k] += product(A.template bottomRightCorner<3, 3>(), force);
+    }
   }
 
   // Coefficient k + 1 of the wrench and the fixed force, the strain's k-th being known.
