@@ -88,6 +88,13 @@ BasicScrew<T, D> magnus(const RodSeries<T, D, terms>& s) {
          bracket(a2, (-1 / 240.) * (a3 + b));
 }
 
+// At the proximal end.
+template <class T, int D>
+BasicWrench<T, D> proximal_wrench(const RodSeries<T, D, 7>& s) {
+  constexpr std::array<double, 7> ones{1, 1, 1, 1, 1, 1, 1};
+  return {weighted(s.force_N, ones), weighted(s.moment_Nmm, ones)};
+}
+
 template <class Section, class T, int D>
 BasicMotion<T, D> sixth_order_step(Section&& section, const ArcForces<T, D>* forces, BasicWrench<T, D>& wrench,
                                    BasicScrew<T, D>& screw) {
@@ -99,8 +106,7 @@ BasicMotion<T, D> sixth_order_step(Section&& section, const ArcForces<T, D>* for
   }
   const RodSeries<T, D, 7> s = rod_series<7>(section, forces, wrench);
   screw = magnus<std::remove_cvref_t<Section>::gives_way>(s);
-  constexpr std::array<double, 7> ones{1, 1, 1, 1, 1, 1, 1};
-  wrench = {weighted(s.force_N, ones), weighted(s.moment_Nmm, ones)};
+  wrench = proximal_wrench(s);
   return exponential(screw);
 }
 

@@ -177,19 +177,6 @@ ArcVariation<N> vary_by_numbers(Law law, const BasicArcConstants<3>& arc, const 
   return result;
 }
 
-template <bool with_shear, std::size_t terms>
-[[gnu::noinline]] RodSeries<double, 3, terms> series_of(const BasicArcConstants<3>& arc,
-                                                        const ArcForces<double, 3>* forces,
-                                                        const SectionWrench& wrench) {
-  RodSeries<double, 3, terms> series;
-  if (arc.is_elastic()) series = rod_series<terms>(ElasticSection<with_shear, double, 3>(arc), forces, wrench);
-  else series = rod_series<terms>(TendonSection<with_shear, double, 3>(arc), forces, wrench);
-  if constexpr (!with_shear) {
-    for (std::size_t k = 1; k < terms; ++k) series.translation_mm[k].setZero();
-  }
-  return series;
-}
-
 template <bool with_shear, std::size_t terms, int N>
 ArcVariation<N> vary_by_series(const BasicArcConstants<3>& arc, const ArcForces<double, 3>* forces,
                                const SectionWrench& wrench, const ArcChange<N>& change) {
@@ -201,8 +188,7 @@ ArcVariation<N> vary_by_series(const BasicArcConstants<3>& arc, const ArcForces<
   MotionSlopes motion(magnus<with_shear>(s));
   ArcVariation<N> result{motion.motion(), motion.way_mm(), {}, {}};
   if (forces) {
-    constexpr std::array<double, 7> ones{1, 1, 1, 1, 1, 1, 1};
-    motion.meet({weighted(s.force_N, ones), weighted(s.moment_Nmm, ones)});
+    if constexpr (terms == 7) motion.meet(proximal_wrench(s));
     result.gain_D = motion.gain(wrench);
   } else {
     result.slopes.template bottomRows<6>().setZero();

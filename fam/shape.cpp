@@ -31,31 +31,17 @@ BasicPose<D> before(const BasicPose<D>& distal, const BasicMotion<double, D>& mo
   return pose;
 }
 
-// The law's step of the part beyond the fraction: the motion, and the wrench at its proximal end.
-template <bool with_shear, int D>
-BasicMotion<double, D> part_step(const SolvedRod<D>& rod, const SpanArcs<D>& span, int arc, double fraction,
-                                 BasicWrench<double, D>& wrench) {
-  const BasicPose<D>& distal = rod.poses[static_cast<std::size_t>(arc) + 1];
-  const double part = 1 - fraction;
-  const BasicArcConstants<D> constants = part_of(span.constants, part);
-  ArcForces<double, D> forces = span.template forces<double>(distal.rotation_BS.transpose());
-  forces.follower_S_N *= part;
-  forces.fixed_D_N *= part;
-  wrench = rod.distal_wrenches_S[static_cast<std::size_t>(arc)];
-  BasicScrew<double, D> screw;
-  const ArcForces<double, D>* distributed = span.distributed ? &forces : nullptr;
-  if (constants.is_elastic()) {
-    const ElasticSection<with_shear, double, D> section(constants);
-    return law_step(rod.law, section, distributed, wrench, screw);
+// A series about the distal end of an arc, of the part of it that ends there.
+template <int D, std::size_t terms>
+RodSeries<double, D, terms> part_of(RodSeries<double, D, terms> s, double part) {
+  double power = 1;
+  for (std::size_t k = 0; k < terms; ++k, power *= part) {
+    s.force_N[k] *= power;
+    s.moment_Nmm[k] *= power;
+    s.rotation[k] *= power * part;
+    s.translation_mm[k] *= power * part;
   }
-  bool collapsed = false;
-  return tendon_step<with_shear>(rod.law, constants, distributed, wrench, screw, collapsed);
-}
-template <int D>
-BasicMotion<double, D> part_step(const SolvedRod<D>& rod, const SpanArcs<D>& span, int arc, double fraction,
-                                 BasicWrench<double, D>& wrench) {
-  return rod.model == RodModel::reissner ? part_step<true>(rod, span, arc, fraction, wrench)
-                                         : part_step<false>(rod, span, arc, fraction, wrench);
+  return s;
 }
 
 SectionPose pose_by_bezier(const Arc& arc, const SectionPose& proximal, double fraction) {
@@ -78,23 +64,56 @@ SectionPose pose_by_bezier(const Arc& arc, const SectionPose& proximal, double f
 
 }  // namespace
 
+// The law's step of the part beyond the fraction: the motion, and the wrench at its proximal end.
 template <int D>
-BasicPose<D> pose_in_arc(const SolvedRod<D>& rod, const SpanArcs<D>& span, int arc, double fraction) {
-  const auto k = static_cast<std::size_t>(arc);
-  if (fraction <= 0) return rod.poses[k];
-  if (fraction >= 1) return rod.poses[k + 1];
-  if constexpr (D == 3) {
-    if (!facts_of(rod.law).coupled) return pose_by_bezier(rod.arcs[k], rod.poses[k], fraction);
+template <bool with_shear>
+BasicMotion<double, D> ArcInterior<D>::step(double fraction, BasicWrench<double, D>& wrench) {
+  const auto k = static_cast<std::size_t>(arc_);
+  const BasicWrench<double, D>& distal = rod_->distal_wrenches_S[k];
+  const double part = 1 - fraction;
+  ArcForces<double, D> forces;
+  if (span_->distributed) forces = span_->template forces<double>(rod_->poses[k + 1].rotation_BS.transpose());
+  const ArcForces<double, D>* distributed = span_->distributed ? &forces : nullptr;
+  if (facts_of(rod_->law).by_series) {
+    if (!has_series_) series_ = series_of<with_shear, 7>(span_->constants, distributed, distal);
+    has_series_ = true;
+    const RodSeries<double, D, 7> s = part_of(series_, part);
+    const BasicMotion<double, D> motion = exponential(magnus<with_shear>(s));
+    wrench = distributed ? proximal_wrench(s) : transport(motion, distal);
+    return motion;
   }
-  BasicWrench<double, D> wrench;
-  return before(rod.poses[k + 1], part_step(rod, span, arc, fraction, wrench));
+  wrench = distal;
+  const BasicArcConstants<D> constants = part_of(span_->constants, part);
+  forces.follower_S_N *= part;
+  forces.fixed_D_N *= part;
+  BasicScrew<double, D> screw;
+  if (constants.is_elastic()) {
+    return law_step(rod_->law, ElasticSection<with_shear, double, D>(constants), distributed, wrench, screw);
+  }
+  bool collapsed = false;
+  return tendon_step<with_shear>(rod_->law, constants, distributed, wrench, screw, collapsed);
+}
+template <int D>
+BasicMotion<double, D> ArcInterior<D>::step(double fraction, BasicWrench<double, D>& wrench) {
+  return rod_->model == RodModel::reissner ? step<true>(fraction, wrench) : step<false>(fraction, wrench);
 }
 
 template <int D>
-BasicWrench<double, D> wrench_in_arc(const SolvedRod<D>& rod, const SpanArcs<D>& span, int arc, double fraction) {
-  if (fraction >= 1) return rod.distal_wrenches_S[static_cast<std::size_t>(arc)];
+BasicPose<D> ArcInterior<D>::pose(double fraction) {
+  const auto k = static_cast<std::size_t>(arc_);
+  if (fraction <= 0) return rod_->poses[k];
+  if (fraction >= 1) return rod_->poses[k + 1];
+  if constexpr (D == 3) {
+    if (!facts_of(rod_->law).coupled) return pose_by_bezier(rod_->arcs[k], rod_->poses[k], fraction);
+  }
   BasicWrench<double, D> wrench;
-  part_step(rod, span, arc, fraction, wrench);
+  return before(rod_->poses[k + 1], step(fraction, wrench));
+}
+
+template <int D>
+BasicWrench<double, D> ArcInterior<D>::wrench(double fraction) {
+  BasicWrench<double, D> wrench = rod_->distal_wrenches_S[static_cast<std::size_t>(arc_)];
+  if (fraction < 1) step(fraction, wrench);
   return wrench;
 }
 
@@ -115,16 +134,17 @@ bool any_tendon_collapsed(const SolvedRod<D>& rod) {
 
 // From the arc's distal end towards the clamp: the forces beyond and the moments of what lies between.
 template <int D>
-BasicWrench<double, D> BasicShape<D>::wrench_towards(int arc, double fraction, const BasicPose<D>& pose) const {
-  const SpanArcs<D>& span = span_of(arc);
-  const BasicWrench<double, D>& distal = distal_totals_B_[static_cast<std::size_t>(arc)];
-  const Vector<double, D> arm = rod_.poses[static_cast<std::size_t>(arc) + 1].position_B_mm - pose.position_B_mm;
+BasicWrench<double, D> BasicShape<D>::wrench_towards(ArcInterior<D>& arc, double fraction, const BasicPose<D>& pose) const {
+  const SpanArcs<D>& span = arc.span();
+  const auto k = static_cast<std::size_t>(arc.arc());
+  const BasicWrench<double, D>& distal = distal_totals_B_[k];
+  const Vector<double, D> arm = rod_.poses[k + 1].position_B_mm - pose.position_B_mm;
   BasicWrench<double, D> total{distal.force_N, distal.moment_Nmm + arm_cross(arm, distal.force_N)};
   if (!span.distributed) return total;
   const double part = 1 - fraction;
   total.force_N += part * span.fixed_force_B_N;
   for (std::size_t i = 0; i < gauss_points.size(); ++i) {
-    const BasicPose<D> at = pose_in_arc(rod_, span, arc, fraction + part * gauss_points[i]);
+    const BasicPose<D> at = arc.pose(fraction + part * gauss_points[i]);
     const double weight = part * gauss_weights[i];
     const Vector<double, D> follower = weight * (at.rotation_BS * span.follower_force_S_N);
     const Vector<double, D> force = weight * span.fixed_force_B_N + follower;
@@ -159,23 +179,23 @@ void BasicShape<D>::set(const SolvedRod<D>& rod) {
     else total.moment_Nmm += loads_S.moment_Nmm;
     for (int arc = span->end_arc; arc-- > span->first_arc;) {
       distal_totals_B_[static_cast<std::size_t>(arc)] = total;
-      total = wrench_towards(arc, 0, rod.poses[static_cast<std::size_t>(arc)]);
+      ArcInterior<D> inside(rod_, *span, arc);
+      total = wrench_towards(inside, 0, rod.poses[static_cast<std::size_t>(arc)]);
     }
   }
 }
 
 template <int D>
-typename BasicShape<D>::Section BasicShape<D>::section(int arc, double fraction) const {
+typename BasicShape<D>::Section BasicShape<D>::section(ArcInterior<D>& arc, double fraction) const {
   Section result;
-  result.pose = pose_in_arc(rod_, span_of(arc), arc, fraction);
+  result.pose = arc.pose(fraction);
   result.total_B =
-      fraction >= 1 ? distal_totals_B_[static_cast<std::size_t>(arc)] : wrench_towards(arc, fraction, result.pose);
-  const SpanArcs<D>& span = span_of(arc);
+      fraction >= 1 ? distal_totals_B_[static_cast<std::size_t>(arc.arc())] : wrench_towards(arc, fraction, result.pose);
   const Eigen::Matrix<double, D, D>& R = result.pose.rotation_BS;
   BasicWrench<double, D> total_S = result.total_B;
   total_S.force_N = R.transpose() * total_S.force_N;
   if constexpr (D == 3) total_S.moment_Nmm = R.transpose() * total_S.moment_Nmm;
-  const BasicArcConstants<D>& constants = span.constants;
+  const BasicArcConstants<D>& constants = arc.span().constants;
   const BasicScrew<double, D> strain = rod_.model == RodModel::reissner ? strain_under<true>(constants, total_S)
                                                                         : strain_under<false>(constants, total_S);
   result.strain_per_mm = (1 / constants.length_mm) * strain;
@@ -186,10 +206,8 @@ typename BasicShape<D>::Section BasicShape<D>::section(int arc, double fraction)
   return result;
 }
 
-template BasicPose<2> pose_in_arc(const SolvedRod<2>&, const SpanArcs<2>&, int, double);
-template BasicPose<3> pose_in_arc(const SolvedRod<3>&, const SpanArcs<3>&, int, double);
-template BasicWrench<double, 2> wrench_in_arc(const SolvedRod<2>&, const SpanArcs<2>&, int, double);
-template BasicWrench<double, 3> wrench_in_arc(const SolvedRod<3>&, const SpanArcs<3>&, int, double);
+template class ArcInterior<2>;
+template class ArcInterior<3>;
 template bool any_tendon_collapsed(const SolvedRod<2>&);
 template bool any_tendon_collapsed(const SolvedRod<3>&);
 template class BasicShape<2>;

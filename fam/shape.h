@@ -9,6 +9,7 @@
 // rod's own is that less the tendons' pulls T t/|t| and r x T t/|t|, t = v + u x r.
 #pragma once
 
+#include "fam/arc_law.h"
 #include "fam/march.h"
 
 #include <array>
@@ -22,12 +23,31 @@ constexpr std::array<double, 4> gauss_points{0.06943184420297371, 0.330009478207
 constexpr std::array<double, 4> gauss_weights{0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
                                               0.17392742256872693};
 
-// Pose at a fraction in [0, 1] of an arc's length from its proximal end; `span` holds the arc.
+// The inside of an arc of a span. The series of a law that has them is made for the first place and serves all.
 template <int D>
-BasicPose<D> pose_in_arc(const SolvedRod<D>& rod, const SpanArcs<D>& span, int arc, double fraction);
-// And the total wrench there, as the law carries it (coupled laws).
-template <int D>
-BasicWrench<double, D> wrench_in_arc(const SolvedRod<D>& rod, const SpanArcs<D>& span, int arc, double fraction);
+class ArcInterior {
+ public:
+  // Keeps views of the rod and the span.
+  ArcInterior(const SolvedRod<D>& rod, const SpanArcs<D>& span, int arc) : rod_(&rod), span_(&span), arc_(arc) {}
+
+  int arc() const { return arc_; }
+  const SpanArcs<D>& span() const { return *span_; }
+  // At a fraction in [0, 1] of the arc's length from its proximal end: pose, and total wrench as the law carries it
+  // (coupled laws).
+  BasicPose<D> pose(double fraction);
+  BasicWrench<double, D> wrench(double fraction);
+
+ private:
+  template <bool with_shear>
+  BasicMotion<double, D> step(double fraction, BasicWrench<double, D>& wrench);
+  BasicMotion<double, D> step(double fraction, BasicWrench<double, D>& wrench);
+
+  const SolvedRod<D>* rod_;
+  const SpanArcs<D>* span_;
+  int arc_;
+  bool has_series_ = false;
+  RodSeries<double, D, 7> series_;
+};
 
 // Whether a straight tendon (fam/tendon.h), which the laws do not check, has collapsed (smallest_tendon_stretch).
 template <int D>
@@ -46,10 +66,11 @@ class BasicShape {
     BasicWrench<double, D> total_B, own_B;
     BasicScrew<double, D> strain_per_mm;  // (u, v)
   };
-  Section section(int arc, double fraction) const;
+  ArcInterior<D> interior(int arc) const { return {rod_, span_of(arc), arc}; }
+  Section section(ArcInterior<D>& arc, double fraction) const;
 
  private:
-  BasicWrench<double, D> wrench_towards(int arc, double fraction, const BasicPose<D>& pose) const;
+  BasicWrench<double, D> wrench_towards(ArcInterior<D>& arc, double fraction, const BasicPose<D>& pose) const;
   const SpanArcs<D>& span_of(int arc) const {
     return rod_.spans[static_cast<std::size_t>(span_of_arc_[static_cast<std::size_t>(arc)])];
   }

@@ -78,7 +78,7 @@ double Solution::twist_rad(const Place& place) const {
 scene::Pose Solution::pose(const Place& place) const {
   const SectionPose pose = run_->engine.visit([&](const auto& solver) {
     const auto rod = solver.solved();
-    return in_base(pose_in_arc(rod, rod.spans[span_of(place.arc)], place.arc, place.fraction),
+    return in_base(ArcInterior(rod, rod.spans[span_of(place.arc)], place.arc).pose(place.fraction),
                    problem_->choice().rotation_BP);
   });
   scene::Pose result{pose.rotation_BS, pose.position_B_mm};
@@ -93,7 +93,7 @@ SectionState<3> Solution::state(const Place& place) const {
   state.rotation_SB = pose(place).rotation_BS.transpose();
   run_->engine.visit([&](const auto& solver) {
     const auto rod = solver.solved();
-    const auto wrench = wrench_in_arc(rod, rod.spans[span_of(place.arc)], place.arc, place.fraction);
+    const auto wrench = ArcInterior(rod, rod.spans[span_of(place.arc)], place.arc).wrench(place.fraction);
     state.wrench = {rotation_BP * embedded(wrench.force_N), rotation_BP * embedded_angular(wrench.moment_Nmm)};
   });
   if (problem_->choice().round) {
@@ -106,7 +106,8 @@ SectionState<3> Solution::state(const Place& place) const {
 scene::Wrench Solution::own_wrench_B(const Place& place) const {
   const Matrix3d& rotation_BP = problem_->choice().rotation_BP;
   const auto own_B = [&](const auto& shape) -> scene::Wrench {
-    const auto own = shape.section(place.arc, place.fraction).own_B;
+    auto arc = shape.interior(place.arc);
+    const auto own = shape.section(arc, place.fraction).own_B;
     return {rotation_BP * embedded(own.force_N), rotation_BP * embedded_angular(own.moment_Nmm)};
   };
   shape();

@@ -105,7 +105,8 @@ std::vector<double> shortenings_mm(const scene::Scene& scene, std::span<const sc
   for (std::size_t i = 0; i < spans.size(); ++i) {
     const double middle_mm = (spans[i].start_mm + spans[i].end_mm) / 2;
     const double h_mm = spans[i].length_mm() / (rod.spans[i].end_arc - rod.spans[i].first_arc);
-    for (int arc = rod.spans[i].first_arc; arc < rod.spans[i].end_arc; ++arc) {
+    for (int k = rod.spans[i].first_arc; k < rod.spans[i].end_arc; ++k) {
+      ArcInterior<D> arc = shape.interior(k);
       for (std::size_t g = 0; g < gauss_points.size(); ++g) {
         const BasicScrew<double, D> strain = shape.section(arc, gauss_points[g]).strain_per_mm;
         const Vector3d u = rotation_BP * embedded_angular(strain.rotation),
@@ -134,9 +135,11 @@ void set_shape(scene::Equilibrium& result, const scene::Scene& scene, std::span<
   }
   BasicShape<D> shape;
   shape.set(rod);
-  result.stations = {station<D>(0, shape.section(0, 0), rotation_BP)};
+  ArcInterior<D> arc = shape.interior(0);
+  result.stations = {station<D>(0, shape.section(arc, 0), rotation_BP)};
   for (const StationPlace& place : thinned(places(spans, rod), rod)) {
-    result.stations.push_back(station<D>(place.s_mm, shape.section(place.arc, place.fraction), rotation_BP));
+    if (place.arc != arc.arc()) arc = shape.interior(place.arc);
+    result.stations.push_back(station<D>(place.s_mm, shape.section(arc, place.fraction), rotation_BP));
   }
   result.tendon_shortening_mm = shortenings_mm(scene, spans, rod, shape, rotation_BP);
 }

@@ -82,16 +82,16 @@ class TendonSection {
 
   // The series of an arc: set(0) after its first strain, then coefficient k of the strain from that of the wrench.
   [[gnu::noinline]] void begin_series(const BasicScrew<T, D>& first) {
-    Eigen::Matrix<T, unknowns, unknowns> matrix = Eigen::Matrix<T, unknowns, unknowns>::Identity();
+    factors_.setIdentity();
     for (std::size_t i = 0; i < tendons_.size(); ++i) {
       Series& s = series_[i];
       s.t[0] = tangent<T>(first, arm(i));
       using std::sqrt;
       s.length[0] = sqrt(s.t[0].dot(s.t[0]));
       s.direction[0] = s.t[0] * (T(1) / s.length[0]);
-      add_stiffness<T>(matrix, i, s.direction[0], s.length[0]);
+      add_stiffness<T>(factors_, i, s.direction[0], s.length[0]);
     }
-    factorise(matrix);
+    factorise(factors_);
   }
 
   [[gnu::noinline]] void next(std::size_t k, const Angular<T, D>& moment_Nmm, const Vector<T, D>& force_N,
@@ -102,7 +102,7 @@ class TendonSection {
       x -= T(tendons_[i].tension_N) * pull(series_[i].direction[k], arm(i));
     }
     x = compliance_.template cast<T>().cwiseProduct(x).eval();
-    substitute(x);
+    substitute(factors_, x);
     const BasicScrew<T, D> result = screw<T>(x, Vector<T, D>(Vector<T, D>::Zero()));
     for (std::size_t i = 0; i < tendons_.size(); ++i) {
       Series& s = series_[i];
@@ -148,16 +148,30 @@ class TendonSection {
   void add_stiffness(Eigen::Matrix<Number, unknowns, unknowns>& matrix, std::size_t i, const Vector<Number, D>& d,
                      const Number& length) const {
     const Vector<Number, D> arm = tendons_[i].arm_mm.template cast<Number>();
-    const Number factor = Number(tendons_[i].tension_N) / length;
-    for (int column = 0; column < unknowns; ++column) {
-      Eigen::Matrix<Number, unknowns, 1> unit = Eigen::Matrix<Number, unknowns, 1>::Unit(column);
-      Vector<Number, D> t = tangent<Number>(screw<Number>(unit, Vector<Number, D>(Vector<Number, D>::Zero())), arm);
-      t -= d * d.dot(t);
-      Eigen::Matrix<Number, unknowns, 1> row;
-      row.template head<rotations>() = arm_cross(arm, t);
-      if constexpr (with_shear) row.template tail<D>() = t;
-      matrix.col(column) += compliance_.template cast<Number>().cwiseProduct(row) * factor;
+    const Number pull = Number(tendons_[i].tension_N) / length;
+    Eigen::Matrix<Number, D, D> across;
+    for (int row = 0; row < D; ++row) {
+      for (int column = 0; column < D; ++column) {
+        across(row, column) = pull * (Number(row == column ? 1 : 0) - d[row] * d[column]);
+      }
     }
+    const auto add = [&](int column, const Vector<Number, D>& force) {
+      const Angular<Number, D> moment = arm_cross(arm, force);
+      for (int row = 0; row < rotations; ++row) matrix(row, column) += Number(compliance_[row]) * moment[row];
+      if constexpr (!with_shear) return;
+      for (int row = rotations; row < unknowns; ++row) {
+        matrix(row, column) += Number(compliance_[row]) * force[row - rotations];
+      }
+    };
+    for (int turn = 0; turn < rotations; ++turn) {  // across times (unit turn x arm)
+      if constexpr (D == 2) {
+        add(turn, across.col(1) * arm[0] - across.col(0) * arm[1]);
+      } else {
+        const int next = (turn + 1) % 3, last = (turn + 2) % 3;
+        add(turn, across.col(last) * arm[next] - across.col(next) * arm[last]);
+      }
+    }
+    for (int axis = 0; with_shear && axis < D; ++axis) add(rotations + axis, across.col(axis));
   }
 
   // X - X0 - C (W - sum T B^T d) at a strain; the tangent's matrix too where asked for. False: a tendon collapsed.
@@ -213,18 +227,21 @@ class TendonSection {
       if constexpr (with_shear) scale.template tail<D>().array() += tendon.tension_N;
     }
     scale = (rest_.cwiseAbs() + compliance_.cwiseProduct(scale)).eval();
-    double last = std::numeric_limits<double>::infinity();
+    double last = 1;
     for (int step = 0; step < max_steps; ++step) {
       Eigen::Matrix<double, unknowns, unknowns> matrix = Eigen::Matrix<double, unknowns, unknowns>::Identity();
       Unknowns miss;
       if (!residual<double>(loads, x, miss, &matrix)) break;
-      const Unknowns newton = matrix.partialPivLu().solve(miss);
+      factorise(matrix);
+      Unknowns newton = miss;
+      substitute(matrix, newton);
       double size = 0;  // of the step, relative
       for (int i = 0; i < unknowns; ++i) {
         if (newton[i] != 0) size = std::max(size, std::abs(newton[i]) / scale[i]);
       }
       if (!newton.allFinite() || !std::isfinite(size)) break;
-      if (size <= 1e-15 || (size < 1e-10 && size >= last / 2)) return x - newton;
+      // What the next step would be at most, or round-off.
+      if (size * std::min(1.0, size / last) <= 1e-16 || (size < 1e-10 && size >= last / 2)) return x - newton;
       const double before = energy_slope(miss, newton);
       double part = 1;
       for (Unknowns there; size > 1e-6 && part > 1e-6; part /= 2) {  // closer to the minimum whole steps converge
@@ -268,22 +285,25 @@ class TendonSection {
   }
 
   // I + C S, similar to a positive definite matrix, needs no pivots.
-  void factorise(const Eigen::Matrix<T, unknowns, unknowns>& matrix) {
-    factors_ = matrix;
+  template <class Number>
+  static void factorise(Eigen::Matrix<Number, unknowns, unknowns>& a) {
     for (int k = 0; k < unknowns; ++k) {
+      const Number inverse = Number(1) / a(k, k);
       for (int i = k + 1; i < unknowns; ++i) {
-        factors_(i, k) = factors_(i, k) / factors_(k, k);
-        for (int j = k + 1; j < unknowns; ++j) factors_(i, j) -= factors_(i, k) * factors_(k, j);
+        a(i, k) = a(i, k) * inverse;
+        for (int j = k + 1; j < unknowns; ++j) a(i, j) -= a(i, k) * a(k, j);
       }
     }
   }
-  void substitute(Strain& x) const {
+  template <class Number>
+  static void substitute(const Eigen::Matrix<Number, unknowns, unknowns>& factors,
+                         Eigen::Matrix<Number, unknowns, 1>& x) {
     for (int i = 1; i < unknowns; ++i) {
-      for (int j = 0; j < i; ++j) x[i] -= factors_(i, j) * x[j];
+      for (int j = 0; j < i; ++j) x[i] -= factors(i, j) * x[j];
     }
     for (int i = unknowns; i-- > 0;) {
-      for (int j = i + 1; j < unknowns; ++j) x[i] -= factors_(i, j) * x[j];
-      x[i] = x[i] / factors_(i, i);
+      for (int j = i + 1; j < unknowns; ++j) x[i] -= factors(i, j) * x[j];
+      x[i] = x[i] / factors(i, i);
     }
   }
 

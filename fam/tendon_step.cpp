@@ -13,6 +13,18 @@ BasicMotion<T, D> tendon_step(Law law, const BasicArcConstants<D>& arc, const Ar
   return motion;
 }
 
+template <bool with_shear, std::size_t terms, int D>
+RodSeries<double, D, terms> series_of(const BasicArcConstants<D>& arc, const ArcForces<double, D>* forces,
+                                      const BasicWrench<double, D>& wrench) {
+  RodSeries<double, D, terms> series;
+  if (arc.is_elastic()) series = rod_series<terms>(ElasticSection<with_shear, double, D>(arc), forces, wrench);
+  else series = rod_series<terms>(TendonSection<with_shear, double, D>(arc), forces, wrench);
+  if constexpr (!with_shear) {
+    for (std::size_t k = 1; k < terms; ++k) series.translation_mm[k].setZero();
+  }
+  return series;
+}
+
 template <bool with_shear, int D>
 BasicScrew<double, D> strain_under(const BasicArcConstants<D>& arc, const BasicWrench<double, D>& wrench) {
   if (arc.is_elastic()) return ElasticSection<with_shear, double, D>(arc).strain(wrench);
@@ -31,6 +43,17 @@ FAM_TENDON_STEP(false, Dual<4>, 2)
 FAM_TENDON_STEP(true, double, 3)
 FAM_TENDON_STEP(false, double, 3)
 #undef FAM_TENDON_STEP
+
+#define FAM_SERIES(with_shear, terms, D)                                       \
+  template RodSeries<double, D, terms> series_of<with_shear, terms, D>(        \
+      const BasicArcConstants<D>&, const ArcForces<double, D>*, const BasicWrench<double, D>&);
+FAM_SERIES(true, 6, 3)
+FAM_SERIES(false, 6, 3)
+FAM_SERIES(true, 7, 3)
+FAM_SERIES(false, 7, 3)
+FAM_SERIES(true, 7, 2)
+FAM_SERIES(false, 7, 2)
+#undef FAM_SERIES
 
 template BasicScrew<double, 2> strain_under<true>(const BasicArcConstants<2>&, const BasicWrench<double, 2>&);
 template BasicScrew<double, 2> strain_under<false>(const BasicArcConstants<2>&, const BasicWrench<double, 2>&);

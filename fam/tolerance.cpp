@@ -35,8 +35,8 @@ Distance distance(const SolvedRod<D>& a, const SolvedRod<D>& b) {
       const int arc = (half - 1) / 2;
       const double fraction = half / 2. - arc, there = half / 2. * other_count / count;
       const int other_arc = std::min(other_count - 1, static_cast<int>(there));
-      const BasicPose<D> here = pose_in_arc(a, span, span.first_arc + arc, fraction);
-      const BasicPose<D> pose = pose_in_arc(b, other, other.first_arc + other_arc, there - other_arc);
+      const BasicPose<D> here = ArcInterior<D>(a, span, span.first_arc + arc).pose(fraction);
+      const BasicPose<D> pose = ArcInterior<D>(b, other, other.first_arc + other_arc).pose(there - other_arc);
       largest.position_mm = std::max(largest.position_mm, (here.position_B_mm - pose.position_B_mm).norm());
       const bool loaded = !span.follower_force_S_N.isZero(0) || (half == 2 * count && is_loaded(span.follower_load_S));
       if (loaded) {

@@ -45,7 +45,8 @@ fam::BasicShape<3>::Section SolvedRod::section(double s_mm) const {
   while (i + 1 < spans_.size() && s_mm > spans_[i].end_mm * (1 + 1e-12)) ++i;
   const double arcs = (s_mm - spans_[i].start_mm) / spans_[i].length_mm() * arcs_per_span_[i];
   const double last = std::clamp(std::ceil(arcs - 1e-9), 1.0, static_cast<double>(arcs_per_span_[i]));
-  return shape_->section(solved().spans[i].first_arc + static_cast<int>(last) - 1, std::min(1.0, arcs - last + 1));
+  fam::ArcInterior<3> arc = shape_->interior(solved().spans[i].first_arc + static_cast<int>(last) - 1);
+  return shape_->section(arc, std::min(1.0, arcs - last + 1));
 }
 
 Scene changed(Scene scene, const fam::Parameter& parameter, double change) {
