@@ -26,19 +26,28 @@ using scene::Equilibrium;
 using scene::Span;
 using scene::Status;
 
-// The sign of the energy's second variation, from the run and finer ones until two agree.
+Stability stability_of(const Run& run) {
+  return run.engine.visit([](const auto& solver) { return stability_of(solver); });
+}
+
+// The sign of the energy's second variation, from the run and the other or finer ones, until two agree of which one has
+// twice the other's arcs.
 template <int D>
 std::optional<bool> judged(const BasicBoundaryValue<D>& solver, const Problem& problem, const Run& run,
-                           std::array<Run*, 2> spare, int arcs_at_most) {
+                           const Run* other, std::array<Run*, 2> spare, int arcs_at_most) {
   if (solver.one_equilibrium()) return true;
   Stability coarse = solver.stability();
+  if (other && other->converged() &&
+      (other->arc_count() == 2 * run.arc_count() || run.arc_count() == 2 * other->arc_count())) {
+    if (agree(coarse, stability_of(*other))) return coarse.conjugate_points == 0;
+  }
   const Run* last = &run;
   for (int doublings = 0; doublings < most_stability_doublings; ++doublings) {
     Run& next = *spare[static_cast<std::size_t>(doublings % 2)];
     if (last->arc_count() > arcs_at_most / 2) return std::nullopt;
     next.solve(problem, last->arcs, 2, last);
     if (!next.converged()) return std::nullopt;
-    const Stability finer = next.engine.visit([](const auto& s) { return stability_of(s); });
+    const Stability finer = stability_of(next);
     if (agree(coarse, finer)) return finer.conjugate_points == 0;
     coarse = finer;
     last = &next;
@@ -47,7 +56,7 @@ std::optional<bool> judged(const BasicBoundaryValue<D>& solver, const Problem& p
 }
 // No loads, or tendons alone: the energy is convex in the strains, and no load does work.
 template <int D>
-std::optional<bool> judged(const BasicMarch<D>&, const Problem&, const Run&, std::array<Run*, 2>, int) {
+std::optional<bool> judged(const BasicMarch<D>&, const Problem&, const Run&, const Run*, std::array<Run*, 2>, int) {
   return true;
 }
 
@@ -100,11 +109,11 @@ Equilibrium refusal(Status status, const std::string& message) {
 
 }  // namespace
 
-std::optional<bool> is_stable(const Problem& problem, const Run& run, Run& spare, Run& another_spare,
+std::optional<bool> is_stable(const Problem& problem, const Run& run, const Run* other, Run& spare, Run& another_spare,
                               int arcs_at_most) {
   if (!scene::is_conservative(problem.spans())) return std::nullopt;
   return run.engine.visit([&](const auto& solver) {
-    return judged(solver, problem, run, {&spare, &another_spare}, arcs_at_most);
+    return judged(solver, problem, run, other, {&spare, &another_spare}, arcs_at_most);
   });
 }
 

@@ -8,10 +8,11 @@
 
 namespace fam {
 
-// Stability is judged with twice the arcs until two judgements agree.
+// Stability is judged with twice the arcs until two judgements agree. other: null, or a solution with other numbers of
+// arcs, which may be one of the spare ones.
 constexpr int most_stability_doublings = 6;
 // Empty: the loads have no energy, or not decided with at most `arcs_at_most`.
-std::optional<bool> is_stable(const Problem& problem, const Run& run, Run& spare, Run& another_spare,
+std::optional<bool> is_stable(const Problem& problem, const Run& run, const Run* other, Run& spare, Run& another_spare,
                               int arcs_at_most = std::numeric_limits<int>::max());
 
 scene::Equilibrium success(const Problem& problem, const Run& run, double error_mm, std::optional<bool> stable,

@@ -52,14 +52,14 @@ Equilibrium solve_fixed(const Problem& problem, Run& run, Run& spare, Run& anoth
     return too_long_for_series(extent);
   const double error_mm = problem.options().estimate_error ? estimate_by_doubling_mm(problem, run, spare)
                                                            : problem.choice().rod.left_out_mm;
-  return success(problem, run, error_mm, is_stable(problem, run, spare, another_spare), "number of arcs given");
+  return success(problem, run, error_mm, is_stable(problem, run, nullptr, spare, another_spare), "number of arcs given");
 }
 
 Equilibrium solve_by_tolerance(const Problem& problem, Run& one, Run& another, Run& spare) {
   const Found found = solve_to_tolerance(problem, one, another);
   if (found.status == Status::tolerance_not_met) return tolerance_not_met(problem, *found.run, found.error_mm);
   if (found.status != Status::converged) return failure(*found.run);
-  return success(problem, *found.run, found.error_mm, is_stable(problem, *found.run, *found.other, spare),
+  return success(problem, *found.run, found.error_mm, is_stable(problem, *found.run, found.other, *found.other, spare),
                  "fewest arcs found whose estimate meets the tolerance");
 }
 
