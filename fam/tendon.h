@@ -227,7 +227,7 @@ class TendonSection {
       if constexpr (with_shear) scale.template tail<D>().array() += tendon.tension_N;
     }
     scale = (rest_.cwiseAbs() + compliance_.cwiseProduct(scale)).eval();
-    double last = 1;
+    double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < max_steps; ++step) {
       Eigen::Matrix<double, unknowns, unknowns> matrix = Eigen::Matrix<double, unknowns, unknowns>::Identity();
       Unknowns miss;
@@ -240,8 +240,9 @@ class TendonSection {
         if (newton[i] != 0) size = std::max(size, std::abs(newton[i]) / scale[i]);
       }
       if (!newton.allFinite() || !std::isfinite(size)) break;
-      // What the next step would be at most, or round-off.
-      if (size * std::min(1.0, size / last) <= 1e-16 || (size < 1e-10 && size >= last / 2)) return x - newton;
+      // What the next step would be at most, as the last two tell; or round-off.
+      const double shrinkage = std::isfinite(last) ? std::min(1.0, size / last) : 1;
+      if (size * shrinkage <= 1e-16 || (size < 1e-10 && size >= last / 2)) return x - newton;
       const double before = energy_slope(miss, newton);
       double part = 1;
       for (Unknowns there; size > 1e-6 && part > 1e-6; part /= 2) {  // closer to the minimum whole steps converge
