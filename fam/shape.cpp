@@ -74,7 +74,7 @@ BasicMotion<double, D> ArcInterior<D>::step(double fraction, BasicWrench<double,
   ArcForces<double, D> forces;
   if (span_->distributed) forces = span_->template forces<double>(rod_->poses[k + 1].rotation_BS.transpose());
   const ArcForces<double, D>* distributed = span_->distributed ? &forces : nullptr;
-  if (facts_of(rod_->law).by_series) {
+  if (rod_->law == Law::sixth_order) {
     if (!has_series_) series_ = series_of<with_shear, 7>(span_->constants, distributed, distal);
     has_series_ = true;
     const RodSeries<double, D, 7> s = part_of(series_, part);
@@ -134,7 +134,8 @@ bool any_tendon_collapsed(const SolvedRod<D>& rod) {
 
 // From the arc's distal end towards the clamp: the forces beyond and the moments of what lies between.
 template <int D>
-BasicWrench<double, D> BasicShape<D>::wrench_towards(ArcInterior<D>& arc, double fraction, const BasicPose<D>& pose) const {
+BasicWrench<double, D> BasicShape<D>::wrench_towards(ArcInterior<D>& arc, double fraction,
+                                                     const BasicPose<D>& pose) const {
   const SpanArcs<D>& span = arc.span();
   const auto k = static_cast<std::size_t>(arc.arc());
   const BasicWrench<double, D>& distal = distal_totals_B_[k];
@@ -189,8 +190,8 @@ template <int D>
 typename BasicShape<D>::Section BasicShape<D>::section(ArcInterior<D>& arc, double fraction) const {
   Section result;
   result.pose = arc.pose(fraction);
-  result.total_B =
-      fraction >= 1 ? distal_totals_B_[static_cast<std::size_t>(arc.arc())] : wrench_towards(arc, fraction, result.pose);
+  const auto k = static_cast<std::size_t>(arc.arc());
+  result.total_B = fraction >= 1 ? distal_totals_B_[k] : wrench_towards(arc, fraction, result.pose);
   const Eigen::Matrix<double, D, D>& R = result.pose.rotation_BS;
   BasicWrench<double, D> total_S = result.total_B;
   total_S.force_N = R.transpose() * total_S.force_N;

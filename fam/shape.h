@@ -23,7 +23,8 @@ constexpr std::array<double, 4> gauss_points{0.06943184420297371, 0.330009478207
 constexpr std::array<double, 4> gauss_weights{0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
                                               0.17392742256872693};
 
-// The inside of an arc of a span. The series of a law that has them is made for the first place and serves all.
+// The inside of an arc of a span. The series of sixth_order is made for the first place and serves all;
+// another law takes its step over the part beyond the place.
 template <int D>
 class ArcInterior {
  public:
