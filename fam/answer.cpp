@@ -37,10 +37,9 @@ std::optional<bool> judged(const BasicBoundaryValue<D>& solver, const Problem& p
                            const Run* other, std::array<Run*, 2> spare, int arcs_at_most) {
   if (solver.one_equilibrium()) return true;
   Stability coarse = solver.stability();
-  if (other && other->converged() &&
-      (other->arc_count() == 2 * run.arc_count() || run.arc_count() == 2 * other->arc_count())) {
-    if (agree(coarse, stability_of(*other))) return coarse.conjugate_points == 0;
-  }
+  const bool is_double = other && other->converged() &&
+                         (other->arc_count() == 2 * run.arc_count() || run.arc_count() == 2 * other->arc_count());
+  if (is_double && agree(coarse, stability_of(*other))) return coarse.conjugate_points == 0;
   const Run* last = &run;
   for (int doublings = 0; doublings < most_stability_doublings; ++doublings) {
     Run& next = *spare[static_cast<std::size_t>(doublings % 2)];

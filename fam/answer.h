@@ -8,10 +8,10 @@
 
 namespace fam {
 
-// Stability is judged with twice the arcs until two judgements agree. other: null, or a solution with other numbers of
-// arcs, which may be one of the spare ones.
+// Stability is judged with twice the arcs until two judgements agree.
 constexpr int most_stability_doublings = 6;
-// Empty: the loads have no energy, or not decided with at most `arcs_at_most`.
+// Empty: the loads have no energy, or not decided with at most `arcs_at_most`. other: null, or a solution of the
+// problem with other numbers of arcs, which may be one of the spare ones.
 std::optional<bool> is_stable(const Problem& problem, const Run& run, const Run* other, Run& spare, Run& another_spare,
                               int arcs_at_most = std::numeric_limits<int>::max());
 

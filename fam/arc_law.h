@@ -85,7 +85,7 @@ template <bool with_shear, class T, int D>
 BasicMotion<T, D> tendon_step(Law law, const BasicArcConstants<D>& arc, const ArcForces<T, D>* forces,
                               BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw, bool& collapsed);
 
-// The series of an arc (fam/arc_series.h) in any section; the translation of one that does not give way is (h, 0, 0), 0 ...
+// The series of an arc (fam/arc_series.h) in any section; where that does not give way its translation is (h, 0, 0), 0 ...
 template <bool with_shear, std::size_t terms, int D>
 RodSeries<double, D, terms> series_of(const BasicArcConstants<D>& arc, const ArcForces<double, D>* forces,
                                       const BasicWrench<double, D>& wrench);

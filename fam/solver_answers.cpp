@@ -129,7 +129,9 @@ double Solver::error_estimate_mm() {
 std::optional<bool> Solver::stable() const {
   if (!impl_->solved) return std::nullopt;
   const auto& [problem, run] = *impl_->solved;
-  if (!impl_->stable) impl_->stable = is_stable(problem, run, nullptr, impl_->spare[0], impl_->spare[1], impl_->reserved_arcs);
+  if (!impl_->stable) {
+    impl_->stable = is_stable(problem, run, nullptr, impl_->spare[0], impl_->spare[1], impl_->reserved_arcs);
+  }
   return *impl_->stable;
 }
 

@@ -9,7 +9,8 @@
 namespace studies {
 namespace {
 
-const std::string about_loads = "Forces of our own (studies/cases/study2/study2*.json); the paper's are lost. mm, base frame.";
+const std::string about_loads =
+    "Forces of our own (studies/cases/study2/study2*.json); the paper's are lost. mm, base frame.";
 
 // Smaller errors do not matter on half a metre of catheter and are not told apart but in errors_along.csv.
 constexpr double told_mm = 1e-5;

@@ -65,9 +65,8 @@ void walks(const StudyOptions& options) {
   }
   page.set("counts", counts_table(steps).markdown());
   const std::string answer = fmt::format(
-      "of {} steps of random walks {} end as a cold solve does, {} as the exact reference by the same way, {} "
-      "elsewhere by "
-      "it",
+      "of {} steps of random walks {} end as a cold solve does, {} as the exact reference by the same way, {} elsewhere "
+      "by it",
       steps.size(), count(steps, "as cold"), count(steps, "as exact"), count(steps, "wrong"));
   write_results(options.output / "walks", "fam-studies walks",
                 {{"README.md", page.fill(options.pages / "walks" / "page.md")},

@@ -6,7 +6,8 @@ set(scene ${SOURCE}/studies/cases/study2/study2_gravity_y.json)
 set(largest_mm 1e-9)  # round-off: FMA and the order of sums differ
 
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${FOLDER}/build -G Ninja -DFAM_STUDIES=OFF "-DCMAKE_CXX_FLAGS_RELEASE=-O0 -DNDEBUG"
-    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=30 -DCMAKE_DISABLE_FIND_PACKAGE_pybind11=ON ${OPTIONS})  # the Python module has builds of its own
+    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=30
+    -DCMAKE_DISABLE_FIND_PACKAGE_pybind11=ON ${OPTIONS})  # the Python module has builds of its own
 run(${CMAKE_COMMAND} --build ${FOLDER}/build --parallel 1)
 file(REMOVE_RECURSE ${FOLDER}/prefix ${FOLDER}/user)
 run(${CMAKE_COMMAND} --install ${FOLDER}/build --prefix ${FOLDER}/prefix)
