@@ -109,9 +109,13 @@ Scene everything(const scene::Stiffness& stiffness, double size) {
                  Gravity{size * Vector3d(1, -2, -9.81)}};
   return scene;
 }
+// Five: more than the slopes take at once.
 Scene with_tendons(Scene scene, double tension_N) {
   scene.loads.push_back(Tendon{{0, 3}, tension_N, 100});
   scene.loads.push_back(Tendon{{-2, -1}, 0.7 * tension_N, 80});
+  scene.loads.push_back(Tendon{{1, -1.5}, 0.4 * tension_N, 100});
+  scene.loads.push_back(Tendon{{1.5, 1}, 0.2 * tension_N, 45});
+  scene.loads.push_back(Tendon{{-1, 2}, 0.3 * tension_N, 80});
   return scene;
 }
 
