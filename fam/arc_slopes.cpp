@@ -2,6 +2,7 @@
 
 #include "fam/arc_law.h"
 #include "fam/dual.h"
+#include "fam/embedding.h"
 #include "fam/series_slopes.h"
 
 namespace fam {
@@ -70,20 +71,23 @@ struct DualSection {
 // What an arc's screw makes of its own changes, and of those of the wrench at the proximal end: the turn and the way
 //   turn = (1 - B [w] + C [w]^2) dw,    way_D = (1 - B [w] + C [w]^2) d,
 // and the gain, that wrench carried back, less the one at the distal end.
+template <int D>
 class MotionSlopes {
  public:
-  explicit MotionSlopes(const Screw& screw) : w_(screw.rotation), d_(screw.translation_mm) {
+  explicit MotionSlopes(const BasicScrew<double, D>& screw) : w_(screw.rotation), d_(screw.translation_mm) {
     const BasicCoefficients<Dual<1>> k = screw_coefficients(Dual<1>(w_.dot(w_), Dual<1>::Slope::Ones()));
     B_ = k.B.value;
     C_ = k.C.value;
-    wd_ = w_.cross(d_);
-    const Vector3d wwd = w_.cross(wd_);
+    wd_ = fam::cross(w_, d_);
+    const Vector<double, D> wwd = fam::cross(w_, wd_);
     by_squared_ = k.C.slope[0] * wwd - k.B.slope[0] * wd_;
     motion_ = {w_, d_ + (B_ * wd_ + C_ * wwd), k.A.value, B_};
     way_ = d_ + (C_ * wwd - B_ * wd_);
   }
-  const RigidMotion& motion() const { return motion_; }
-  const Vector3d& way_mm() const { return way_; }
+  RigidMotion motion() const {
+    return {embedded_angular(w_), embedded(motion_.position_mm), motion_.A, motion_.B};
+  }
+  Vector3d way_mm() const { return embedded(way_); }
 
   Pair3 turn(const ScrewPair& screw) const {
     const Pair3 turned = cross(w_, screw.rotation);
@@ -91,17 +95,18 @@ class MotionSlopes {
   }
   Pair3 way(const ScrewPair& screw) const {
     const Pair3 along = cross(w_, screw.translation) + cross(screw.rotation, d_);
-    const Pair squared = 2.0 * (w_[0] * screw.rotation.x + w_[1] * screw.rotation.y + w_[2] * screw.rotation.z);
-    const Pair3 by_angle{by_squared_[0] * squared, by_squared_[1] * squared, by_squared_[2] * squared};
-    return screw.translation + (C_ * (cross(w_, along) + cross(screw.rotation, wd_)) + -B_ * along) + by_angle;
+    return screw.translation + (C_ * (cross(w_, along) + cross(screw.rotation, wd_)) + -B_ * along) +
+           by_angle(screw.rotation);
   }
 
-  void meet(const SectionWrench& proximal) {
+  void meet(const BasicWrench<double, D>& proximal) {
     force_ = motion_.rotate_back(proximal.force_N);
-    moment_ = motion_.rotate_back(proximal.moment_Nmm);
+    if constexpr (D == 3) moment_ = motion_.rotate_back(proximal.moment_Nmm);
+    else moment_ = proximal.moment_Nmm;
   }
   SectionWrench gain(const SectionWrench& distal) const {
-    return {force_ - distal.force_N, moment_ - way_.cross(force_) - distal.moment_Nmm};
+    const Angular<double, D> moment = moment_ - arm_cross(way_, force_);
+    return {embedded(force_) - distal.force_N, embedded_angular(moment) - distal.moment_Nmm};
   }
   Pair3 carried_force(const Pair3& proximal_force, const Pair3& turn) const {
     return rotate_back(proximal_force) + cross(force_, turn);
@@ -117,18 +122,31 @@ class MotionSlopes {
     return x + (B_ * cross(w_, wx) + -motion_.A * wx);
   }
 
-  Vector3d w_, d_, wd_, by_squared_, way_, force_, moment_;
+  // By the change of the angle's square.
+  Pair3 by_angle(const Pair3& turn) const {
+    const Vector<double, D>& by = by_squared_;
+    if constexpr (D == 2) {
+      const Pair squared = 2 * w_[0] * turn.z;
+      return {by[0] * squared, by[1] * squared, Pair{}};
+    } else {
+      const Pair squared = 2.0 * (w_[0] * turn.x + w_[1] * turn.y + w_[2] * turn.z);
+      return {by[0] * squared, by[1] * squared, by[2] * squared};
+    }
+  }
+
+  Angular<double, D> w_, moment_;
+  Vector<double, D> d_, wd_, by_squared_, way_, force_;
   double B_, C_;
-  RigidMotion motion_;
+  BasicMotion<double, D> motion_;
 };
 
-template <int N>
-void set_pair(const MotionSlopes& motion, const ScrewPair& screw, int first, ArcVariation<N>& result) {
+template <int D, int N>
+void set_pair(const MotionSlopes<D>& motion, const ScrewPair& screw, int first, ArcVariation<N>& result) {
   set_columns(motion.turn(screw), first, result.slopes.template topRows<3>());
   set_columns(motion.way(screw), first, result.slopes.template middleRows<3>(3));
 }
-template <int N>
-void set_gain(const MotionSlopes& motion, const Pair3& force, const Pair3& moment, const ArcChange<N>& change,
+template <int D, int N>
+void set_gain(const MotionSlopes<D>& motion, const Pair3& force, const Pair3& moment, const ArcChange<N>& change,
               int first, ArcVariation<N>& result) {
   const Pair3 turn = columns(result.slopes.template topRows<3>(), first);
   const Pair3 way = columns(result.slopes.template middleRows<3>(3), first);
@@ -157,7 +175,7 @@ ArcVariation<N> vary_by_numbers(Law law, const BasicArcConstants<3>& arc, const 
     if (law == Law::midpoint) midpoint_step(section, forces ? &along : nullptr, w, screw);
     else fourth_order_step(section, forces ? &along : nullptr, w, screw);
 
-    MotionSlopes motion({value(screw.rotation), value(screw.translation_mm)});
+    MotionSlopes<3> motion({value(screw.rotation), value(screw.translation_mm)});
     motion.meet({value(w.force_N), value(w.moment_Nmm)});
     ArcVariation<3> part;
     const ArcChange<3> part_change{change.force_N.template middleCols<3>(three),
@@ -177,18 +195,21 @@ ArcVariation<N> vary_by_numbers(Law law, const BasicArcConstants<3>& arc, const 
   return result;
 }
 
-template <bool with_shear, std::size_t terms, int N>
-ArcVariation<N> vary_by_series(const BasicArcConstants<3>& arc, const ArcForces<double, 3>* forces,
-                               const SectionWrench& wrench, const ArcChange<N>& change) {
-  const RodSeries<double, 3, terms> s = series_of<with_shear, terms>(arc, forces, wrench);
-  const SeriesSlopes<with_shear, terms> slopes(arc, s, forces);
+// `s`: the arc's series, seven terms with distributed forces.
+template <bool with_shear, std::size_t terms, int D, int N>
+ArcVariation<N> vary_by_series(const BasicArcConstants<3>& arc, const ArcForces<double, D>* forces,
+                               const RodSeries<double, D, terms>& s, const SectionWrench& wrench,
+                               const ArcChange<N>& change) {
+  const SeriesSlopes<with_shear, terms, D> slopes(arc, s, forces);
   ConstantSeries<terms> constant;
   const bool varied = change.constant != Constant::none;
-  if (varied) constant = slopes.constant_series(change.constant, change.tendon_arms);
-  MotionSlopes motion(magnus<with_shear>(s));
+  if constexpr (D == 3) {
+    if (varied) constant = slopes.constant_series(change.constant, change.tendon_arms);
+  }
+  MotionSlopes<D> motion(magnus<with_shear>(s));
   ArcVariation<N> result{motion.motion(), motion.way_mm(), {}, {}};
-  if (forces) {
-    if constexpr (terms == 7) motion.meet(proximal_wrench(s));
+  if constexpr (terms == 7) {
+    motion.meet(proximal_wrench(s));
     result.gain_D = motion.gain(wrench);
   } else {
     result.slopes.template bottomRows<6>().setZero();
@@ -196,7 +217,7 @@ ArcVariation<N> vary_by_series(const BasicArcConstants<3>& arc, const ArcForces<
   for (int first = 0; first < N; first += 2) {
     const auto pair = slopes.pair(change, varied ? &constant : nullptr, first);
     set_pair(motion, pair.screw, first, result);
-    if (forces) set_gain(motion, pair.force, pair.moment, change, first, result);
+    if constexpr (terms == 7) set_gain(motion, pair.force, pair.moment, change, first, result);
   }
   return result;
 }
@@ -205,8 +226,67 @@ template <bool with_shear, int N>
 ArcVariation<N> vary(Law law, const BasicArcConstants<3>& arc, const ArcForces<double, 3>* forces,
                      const SectionWrench& wrench, const ArcChange<N>& change) {
   if (law != Law::sixth_order) return vary_by_numbers<with_shear>(law, arc, forces, wrench, change);
-  if (N == 9 || (N == 3 && forces)) return vary_by_series < with_shear, N == 6 ? 6 : 7 > (arc, forces, wrench, change);
-  return vary_by_series < with_shear, N == 9 ? 7 : 6 > (arc, forces, wrench, change);
+  const auto by_series = [&]<std::size_t terms>() {
+    return vary_by_series<with_shear>(arc, forces, series_of<with_shear, terms>(arc, forces, wrench), wrench, change);
+  };
+  if (N == 9 || (N == 3 && forces)) return by_series.template operator()<N == 6 ? 6 : 7>();
+  return by_series.template operator()<N == 9 ? 7 : 6>();
+}
+
+// Of an arc in the x-y plane the changes that stay in it (turns and moments about z, ways and forces along x and y) and
+// those that leave it do not mix: a force and a moment along the same axis, one of each, take one column together. Here
+// the columns are told apart, each answer having its half.
+void tell_apart(const Matrix3d& together, bool of_turns, Eigen::Ref<Matrix3d> by_force, Eigen::Ref<Matrix3d> by_moment) {
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      const bool crosses = (row == 2) != (column == 2);
+      by_force(row, column) = crosses == of_turns ? together(row, column) : 0;
+      by_moment(row, column) = crosses == of_turns ? 0 : together(row, column);
+    }
+  }
+}
+
+template <int columns>
+const ArcChange<columns>& changes_together() {
+  static const ArcChange<columns> changes = [] {
+    ArcChange<columns> change;
+    change.force_N.template leftCols<3>().setIdentity();
+    change.moment_Nmm.template leftCols<3>().setIdentity();
+    if constexpr (columns == 6) change.fixed_D_N.template rightCols<3>().setIdentity();
+    return change;
+  }();
+  return changes;
+}
+
+BasicArcConstants<2> in_plane(const BasicArcConstants<3>& arc) {
+  return {arc.length_mm,
+          angular_part<2>(arc.angular_compliance),
+          angular_part<2>(arc.rest_rotation),
+          linear_part<2>(arc.linear_compliance),
+          linear_part<2>(arc.rest_translation_mm),
+          {},
+          false};
+}
+
+template <bool with_shear, int N>
+ArcVariation<N> vary_planar(const BasicArcConstants<3>& arc, const ArcForces<double, 3>* forces,
+                            const SectionWrench& wrench) {
+  constexpr std::size_t terms = N == 9 ? 7 : 6;
+  ArcForces<double, 2> along;
+  if (forces) along = {linear_part<2>(forces->follower_S_N), linear_part<2>(forces->fixed_D_N)};
+  const ArcForces<double, 2>* planar_forces = forces ? &along : nullptr;
+  const BasicWrench<double, 2> planar_wrench{linear_part<2>(wrench.force_N), angular_part<2>(wrench.moment_Nmm)};
+  const ArcVariation<N - 3> together =
+      vary_by_series<with_shear>(arc, planar_forces,
+                                 series_of<with_shear, terms>(in_plane(arc), planar_forces, planar_wrench), wrench,
+                                 changes_together<N - 3>());
+  ArcVariation<N> result{together.motion, together.way_D_mm, together.gain_D, {}};
+  for (int row = 0; row < 12; row += 3) {
+    tell_apart(together.slopes.template block<3, 3>(row, 0), row == 0 || row == 9,
+               result.slopes.template block<3, 3>(row, 0), result.slopes.template block<3, 3>(row, 3));
+  }
+  if constexpr (N == 9) result.slopes.template rightCols<3>() = together.slopes.template rightCols<3>();
+  return result;
 }
 
 template <bool with_shear>
@@ -249,11 +329,22 @@ StrainVariation vary_strain(scene::RodModel model, const BasicArcConstants<3>& a
                                             : vary_section<false>(arc, wrench, change);
 }
 
+template <int N>
+ArcVariation<N> vary_planar_arc(scene::RodModel model, const BasicArcConstants<3>& arc,
+                                const ArcForces<double, 3>* distributed, const SectionWrench& wrench) {
+  if (model == scene::RodModel::reissner) return vary_planar<true, N>(arc, distributed, wrench);
+  return vary_planar<false, N>(arc, distributed, wrench);
+}
+
 template ArcVariation<3> vary_arc(Law, scene::RodModel, const BasicArcConstants<3>&, const ArcForces<double, 3>*,
                                   const SectionWrench&, const ArcChange<3>&);
 template ArcVariation<6> vary_arc(Law, scene::RodModel, const BasicArcConstants<3>&, const ArcForces<double, 3>*,
                                   const SectionWrench&, const ArcChange<6>&);
 template ArcVariation<9> vary_arc(Law, scene::RodModel, const BasicArcConstants<3>&, const ArcForces<double, 3>*,
                                   const SectionWrench&, const ArcChange<9>&);
+template ArcVariation<6> vary_planar_arc(scene::RodModel, const BasicArcConstants<3>&, const ArcForces<double, 3>*,
+                                         const SectionWrench&);
+template ArcVariation<9> vary_planar_arc(scene::RodModel, const BasicArcConstants<3>&, const ArcForces<double, 3>*,
+                                         const SectionWrench&);
 
 }  // namespace fam

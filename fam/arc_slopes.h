@@ -61,6 +61,12 @@ ArcVariation<N> vary_arc(Law law, scene::RodModel model, const BasicArcConstants
                          const ArcForces<double, 3>* distributed, const SectionWrench& wrench,
                          const ArcChange<N>& change);
 
+// By the unit changes, for an arc in the x-y plane by the law of sixth order; the section, in space, has no tendons and
+// principal axes along the plane.
+template <int N>
+ArcVariation<N> vary_planar_arc(scene::RodModel model, const BasicArcConstants<3>& arc,
+                                const ArcForces<double, 3>* distributed, const SectionWrench& wrench);
+
 // The section's strain (times h) under a wrench and the tendons' pulls; slopes of (u, v) h and of the pulls' force and
 // moment.
 struct StrainVariation {

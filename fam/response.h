@@ -13,6 +13,7 @@
 #include "scene/scene.h"
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,8 @@ class Response {
     std::span<const SectionWrench> distal_wrenches_S;  // total, at the arcs' distal ends, loads there included
     Law law;
     scene::RodModel model;
+    // Of a rod that lies in a plane, from the frame in whose x-y plane it does.
+    std::optional<Matrix3d> rotation_BP{};
   };
   // pose: position_B (mm) and small turn in the base frame; strain: u (1/mm), v, section frame; wrench: the rod's own
   // force and moment, base frame.
@@ -101,6 +104,8 @@ class Response {
   void prepare();  // for the solution, when the first is asked for
   void name_spans();
   void factorise_span(std::size_t span);
+  template <int N>
+  ArcVariation<N> vary(const ArcForces<double, 3>* forces, const SectionWrench& wrench) const;
   SectionWrench linearise(std::size_t span, std::size_t arc);
   void carry(std::size_t span, std::size_t arc, const SectionWrench& gain_B);
 
@@ -143,7 +148,9 @@ class Response {
   std::vector<std::size_t> first_arcs_, section_of_span_;  // one more first arc than spans
   std::array<Sweep, 8> sweeps_;
   unsigned long asked_ = 0;
-  BasicArcConstants<3> constants_;  // of the span in hand, with its tendons
+  BasicArcConstants<3> constants_;         // of the span in hand, with its tendons
+  bool planar_ = false;                    // the span's arcs vary as planar ones
+  BasicArcConstants<3> planar_constants_;  // in the plane's frame
   std::vector<BasicTendon<3>> tendons_;
 };
 

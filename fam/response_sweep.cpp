@@ -31,6 +31,16 @@ void to_base(const Matrix3d& rotation_BS, const Eigen::Matrix<double, 12, N>& fr
   }
 }
 
+// Of a section whose principal axes lie along the plane's, or which has none.
+BasicArcConstants<3> turned(const BasicArcConstants<3>& arc, const Matrix3d& rotation_BP) {
+  BasicArcConstants<3> result = arc;
+  const Matrix3d axes = rotation_BP.transpose().cwiseAbs2();
+  result.angular_compliance = axes * arc.angular_compliance;
+  result.linear_compliance = axes * arc.linear_compliance;
+  result.rest_rotation = rotation_BP.transpose() * arc.rest_rotation;
+  return result;
+}
+
 // a x b for each column of b.
 template <class B>
 Matrix3d crossed(const Vector3d& a, const B& b) {
@@ -75,26 +85,39 @@ void Response::name_spans() {
 
 void Response::factorise_span(std::size_t i) {
   set_constants(i, arc_length_mm(i));
+  planar_ = solution_.rotation_BP && solution_.law == Law::sixth_order && constants_.tendons.empty();
+  if (planar_) planar_constants_ = turned(constants_, *solution_.rotation_BP);
   for (std::size_t k = first_arcs_[i + 1]; k-- > first_arcs_[i];) carry(i, k, linearise(i, k));
+}
+
+// By the unit changes; in the plane's frame of a planar rod.
+template <int N>
+ArcVariation<N> Response::vary(const ArcForces<double, 3>* forces, const SectionWrench& wrench) const {
+  if (!planar_) return vary_arc(solution_.law, solution_.model, constants_, forces, wrench, unit_changes<N>());
+  const Matrix3d rotation_PB = solution_.rotation_BP->transpose();
+  ArcForces<double, 3> turned;
+  if (forces) turned = {rotation_PB * forces->follower_S_N, rotation_PB * forces->fixed_D_N};
+  return vary_planar_arc<N>(solution_.model, planar_constants_, forces ? &turned : nullptr,
+                            {rotation_PB * wrench.force_N, rotation_PB * wrench.moment_Nmm});
 }
 
 // Slopes and solution of an arc, base frame; the force and moment that its distributed forces add.
 SectionWrench Response::linearise(std::size_t i, std::size_t k) {
-  const Matrix3d& R = solution_.poses[k + 1].rotation_BS;
+  const SectionPose& pose = solution_.poses[k + 1];
   const SectionWrench& wrench = solution_.distal_wrenches_S[k];
   Arc& arc = arcs_[k];
-  arc.force_N = R * wrench.force_N;
-  arc.moment_Nmm = R * wrench.moment_Nmm;
+  arc.force_N = pose.rotation_BS * wrench.force_N;
+  arc.moment_Nmm = pose.rotation_BS * wrench.moment_Nmm;
+  // The frame of the arc's slopes: the section's or, turned about the tangent, one in whose x-y plane the rod lies.
+  const Matrix3d R = planar_ ? Matrix3d(pose.rotation_BS * *solution_.rotation_BP) : pose.rotation_BS;
   if (!has_forces(i)) {
-    const ArcVariation<6> variation =
-        vary_arc(solution_.law, solution_.model, constants_, nullptr, wrench, unit_changes<6>());
+    const ArcVariation<6> variation = vary<6>(nullptr, wrench);
     to_base<6>(R, variation.slopes, arc.slopes);
     arc.way_mm = R * variation.way_D_mm;
     return {};
   }
-  const ArcForces<double, 3> forces = forces_on(i, constants_.length_mm, R);
-  const ArcVariation<9> variation =
-      vary_arc(solution_.law, solution_.model, constants_, &forces, wrench, unit_changes<9>());
+  const ArcForces<double, 3> forces = forces_on(i, constants_.length_mm, pose.rotation_BS);
+  const ArcVariation<9> variation = vary<9>(&forces, wrench);
   to_base<12>(R, variation.slopes, arc.slopes);
   arc.way_mm = R * variation.way_D_mm;
   return {R * variation.gain_D.force_N, R * variation.gain_D.moment_Nmm};

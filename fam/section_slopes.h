@@ -72,9 +72,6 @@ class SectionSlopes {
     compliance_ = (Square::Identity() + C * stiffness_[0]).partialPivLu().solve(C);
   }
 
-  bool has_tendons() const { return !arc_.tendons.empty(); }
-  const Vector3d& angular_compliance() const { return arc_.angular_compliance; }
-  const Vector3d& linear_compliance() const { return arc_.linear_compliance; }
   const Square& compliance() const { return compliance_; }                       // A at the distal end; with tendons
   const Square& tendon_stiffness(std::size_t k) const { return stiffness_[k]; }  // S; with tendons
 

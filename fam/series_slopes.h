@@ -19,11 +19,47 @@ inline Pair3 operator+(const Pair3& a, const Pair3& b) {
 inline Pair3 operator*(double a, const Pair3& b) {
   return {a * b.x, a * b.y, a * b.z};
 }
+// Two changes of a vector across the z axis.
+struct PairAcrossZ {
+  Pair x, y;
+  operator Pair3() const { return {x, y, Pair{}}; }
+};
+inline PairAcrossZ operator+(const PairAcrossZ& a, const PairAcrossZ& b) {
+  return {a.x + b.x, a.y + b.y};
+}
+inline Pair3 operator+(const Pair3& a, const PairAcrossZ& b) {
+  return {a.x + b.x, a.y + b.y, a.z};
+}
+inline Pair3 operator+(const PairAcrossZ& a, const Pair3& b) {
+  return b + a;
+}
+inline Pair3& operator+=(Pair3& a, const PairAcrossZ& b) {
+  return a.x += b.x, a.y += b.y, a;
+}
+inline PairAcrossZ operator*(double a, const PairAcrossZ& b) {
+  return {a * b.x, a * b.y};
+}
 inline Pair3 cross(const Vector3d& a, const Pair3& b) {
   return {a[1] * b.z - a[2] * b.y, a[2] * b.x - a[0] * b.z, a[0] * b.y - a[1] * b.x};
 }
 inline Pair3 cross(const Pair3& a, const Vector3d& b) {
   return {a.y * b[2] - a.z * b[1], a.z * b[0] - a.x * b[2], a.x * b[1] - a.y * b[0]};
+}
+// With a turn about z or a vector in the x-y plane.
+inline PairAcrossZ cross(const Angular<double, 2>& a, const Pair3& b) {
+  return {-a[0] * b.y, a[0] * b.x};
+}
+inline PairAcrossZ cross(const Angular<double, 2>& a, const PairAcrossZ& b) {
+  return {-a[0] * b.y, a[0] * b.x};
+}
+inline PairAcrossZ cross(const Pair3& a, const Angular<double, 2>& b) {
+  return {a.y * b[0], -a.x * b[0]};
+}
+inline Pair3 cross(const Eigen::Vector2d& a, const Pair3& b) {
+  return {a[1] * b.z, -a[0] * b.z, a[0] * b.y - a[1] * b.x};
+}
+inline Pair3 cross(const Pair3& a, const Eigen::Vector2d& b) {
+  return {-a.z * b[1], a.z * b[0], a.x * b[1] - a.y * b[0]};
 }
 template <class Matrix>
 Pair3 product(const Matrix& A, const Pair3& b) {
@@ -54,26 +90,28 @@ inline ScrewPair operator+(const ScrewPair& a, const ScrewPair& b) {
 inline ScrewPair operator*(double factor, const ScrewPair& a) {
   return {factor * a.rotation, factor * a.translation};
 }
-[[gnu::always_inline]] inline ScrewPair bracket(const Screw& a, const ScrewPair& da, const Screw& b,
-                                                const ScrewPair& db) {
+template <int D>
+[[gnu::always_inline]] inline ScrewPair bracket(const BasicScrew<double, D>& a, const ScrewPair& da,
+                                                const BasicScrew<double, D>& b, const ScrewPair& db) {
   return {cross(da.rotation, b.rotation) + cross(a.rotation, db.rotation),
           cross(da.rotation, b.translation_mm) + cross(a.rotation, db.translation) + cross(da.translation, b.rotation) +
               cross(a.translation_mm, db.rotation)};
 }
 
-// An arc's series, and what the slopes ask of it more than once.
-template <bool with_shear, std::size_t terms>
+// An arc's series, and what the slopes ask of it more than once. In the plane (D = 2) the arc lies there, its changes
+// need not: `arc` is the section in space all the same, without tendons.
+template <bool with_shear, std::size_t terms, int D>
 class SeriesSlopes {
  public:
-  using Series = RodSeries<double, 3, terms>;
+  using Series = RodSeries<double, D, terms>;
 
-  SeriesSlopes(const BasicArcConstants<3>& arc, const Series& series, const ArcForces<double, 3>* forces)
-      : s_(series), section_(arc, series.rotation, series.translation_mm), forces_(forces) {
+  SeriesSlopes(const BasicArcConstants<3>& arc, const Series& series, const ArcForces<double, D>* forces)
+      : arc_(arc), s_(series), section_(arc, series.rotation, series.translation_mm), forces_(forces) {
     if (forces) {
       fixed_N_[0] = forces->fixed_D_N;
       for (std::size_t k = 0; k + 1 < terms; ++k) {
         fixed_N_[k + 1].setZero();
-        for (std::size_t j = 0; j <= k; ++j) fixed_N_[k + 1] += s_.rotation[j].cross(fixed_N_[k - j]);
+        for (std::size_t j = 0; j <= k; ++j) fixed_N_[k + 1] += fam::cross(s_.rotation[j], fixed_N_[k - j]);
         fixed_N_[k + 1] /= static_cast<double>(k + 1);
       }
     }
@@ -85,7 +123,7 @@ class SeriesSlopes {
       a2_.translation_mm = weighted(s_.translation_mm, a2_weights, 1);
       a3_.translation_mm = weighted(s_.translation_mm, a3_weights, 2);
     }
-    const Screw b = fam::bracket(a1_, a2_);
+    const BasicScrew<double, D> b = fam::bracket(a1_, a2_);
     inner_ = (1 / 360.) * a3_ + (-1 / 720.) * b;
     outer_ = (-1 / 240.) * (a3_ + b);
     middle_ = fam::bracket(a1_, inner_);
@@ -129,16 +167,16 @@ class SeriesSlopes {
   // The strain under the wrench and what a changed constant is worth.
   [[gnu::always_inline]] void set_strain(Terms& d, const ConstantSeries<terms>* constant, int first,
                                          std::size_t k) const {
-    if (!section_.has_tendons()) {
-      Pair3 force = d.force[k], moment = d.moment[k];
-      if (constant) force += columns(constant->force[k], first), moment += columns(constant->moment[k], first);
-      const Vector3d &c = section_.angular_compliance(), &l = section_.linear_compliance();
-      d.rotation[k] = {c[0] * moment.x, c[1] * moment.y, c[2] * moment.z};
-      if constexpr (with_shear) d.translation[k] = {l[0] * force.x, l[1] * force.y, l[2] * force.z};
-      return;
-    }
     Pair3 force = d.force[k], moment = d.moment[k];
     if (constant) force += columns(constant->force[k], first), moment += columns(constant->moment[k], first);
+    if constexpr (D == 3) {
+      if (!arc_.tendons.empty()) return set_tendon_strain(d, force, moment, k);
+    }
+    const Vector3d &c = arc_.angular_compliance, &l = arc_.linear_compliance;
+    d.rotation[k] = {c[0] * moment.x, c[1] * moment.y, c[2] * moment.z};
+    if constexpr (with_shear) d.translation[k] = {l[0] * force.x, l[1] * force.y, l[2] * force.z};
+  }
+  void set_tendon_strain(Terms& d, Pair3 force, Pair3 moment, std::size_t k) const {
     for (std::size_t j = 1; j <= k; ++j) {
       const auto S = -section_.tendon_stiffness(j);
       moment += product(S.template topLeftCorner<3, 3>(), d.rotation[k - j]);
@@ -200,11 +238,15 @@ class SeriesSlopes {
     return whole + (1 / 12.) * b + bracket(a1_, d1, middle_, middle) + bracket(a2_, d2, outer_, (-1 / 240.) * (d3 + b));
   }
 
+  struct NoTendons {
+    NoTendons(const auto&, const auto&, const auto&) {}
+  };
+  const BasicArcConstants<3>& arc_;
   const Series& s_;
-  SectionSlopes<with_shear, terms> section_;
-  const ArcForces<double, 3>* forces_;
-  std::array<Vector3d, terms> fixed_N_;
-  Screw a1_, a2_, a3_, inner_, outer_, middle_;
+  std::conditional_t<D == 3, SectionSlopes<with_shear, terms>, NoTendons> section_;
+  const ArcForces<double, D>* forces_;
+  std::array<Vector<double, D>, terms> fixed_N_;
+  BasicScrew<double, D> a1_, a2_, a3_, inner_, outer_, middle_;
 };
 
 }  // namespace fam

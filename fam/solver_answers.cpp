@@ -79,8 +79,10 @@ Response* Solver::Impl::prepared_response() {
     return nullptr;
   }
   const Problem& problem = solved->problem;
+  const Choice& choice = problem.choice();
   response.set({&problem.scene(), problem.scene_spans(), solved_states.arcs, solved_states.poses,
-                solved_states.distal_wrenches_S, problem.choice().law, problem.choice().rod.model});
+                solved_states.distal_wrenches_S, choice.law, choice.rod.model,
+                choice.plane ? std::optional(choice.rotation_BP) : std::nullopt});
   return &response;
 }
 

@@ -51,6 +51,8 @@ FAM_SERIES(true, 6, 3)
 FAM_SERIES(false, 6, 3)
 FAM_SERIES(true, 7, 3)
 FAM_SERIES(false, 7, 3)
+FAM_SERIES(true, 6, 2)
+FAM_SERIES(false, 6, 2)
 FAM_SERIES(true, 7, 2)
 FAM_SERIES(false, 7, 2)
 #undef FAM_SERIES

@@ -1,0 +1,107 @@
+// The slopes of an arc in the plane are those of the same arc taken as one in space; so are a rod's derivatives.
+#include "fam/arc_slopes.h"
+#include "fam/solver.h"
+#include "response_support.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using Eigen::Vector3d;
+
+namespace {
+
+struct PlanarArc {
+  fam::BasicArcConstants<3> constants;
+  fam::ArcForces<double, 3> forces;
+  fam::SectionWrench wrench;
+};
+
+PlanarArc random_arc(std::mt19937& random) {
+  std::uniform_real_distribution<double> one(-1, 1);
+  const auto compliance = [&](double scale) -> Vector3d {
+    return scale * Vector3d(1.1 + one(random), 1.1 + one(random), 1.1);
+  };
+  PlanarArc arc;
+  arc.constants.length_mm = 20;
+  arc.constants.angular_compliance = compliance(1e-3);
+  arc.constants.linear_compliance = compliance(0.05);
+  arc.constants.rest_rotation = {0, 0, 0.3 * one(random)};
+  arc.constants.rest_translation_mm = {20, 0, 0};
+  arc.forces = {{2 * one(random), 2 * one(random), 0}, {2 * one(random), 2 * one(random), 0}};
+  arc.wrench = {{20 * one(random), 20 * one(random), 0}, {0, 0, 400 * one(random)}};
+  return arc;
+}
+
+template <int N>
+void expect_same(fam::RodModel model, bool with_forces) {
+  std::mt19937 random(7);
+  for (int i = 0; i < 50; ++i) {
+    const PlanarArc arc = random_arc(random);
+    const fam::ArcForces<double, 3>* forces = with_forces ? &arc.forces : nullptr;
+    const auto planar = fam::vary_planar_arc<N>(model, arc.constants, forces, arc.wrench);
+    const auto spatial = fam::vary_arc(fam::Law::sixth_order, model, arc.constants, forces, arc.wrench,
+                                       fam::unit_changes<N>());
+    for (int row = 0; row < 12; row += 3) {
+      const Eigen::Matrix<double, 3, N> expected = spatial.slopes.template middleRows<3>(row);
+      EXPECT_LE((planar.slopes.template middleRows<3>(row) - expected).norm(), 1e-13 * expected.norm()) << i << row;
+    }
+    EXPECT_LE((planar.way_D_mm - spatial.way_D_mm).norm(), 1e-13 * 20);
+    EXPECT_LE((planar.motion.rotation - spatial.motion.rotation).norm(), 1e-14);
+    EXPECT_LE((planar.gain_D.force_N - spatial.gain_D.force_N).norm(), 1e-12);
+    EXPECT_LE((planar.gain_D.moment_Nmm - spatial.gain_D.moment_Nmm).norm(), 1e-11);
+  }
+}
+
+TEST(PlanarSlopes, OfAnArcAreThoseInSpace) {
+  for (const fam::RodModel model : {fam::RodModel::kirchhoff, fam::RodModel::reissner}) {
+    expect_same<6>(model, false);
+    expect_same<9>(model, true);
+  }
+}
+
+// A rod with every kind of load but tendons, in the plane of the x axis and this direction.
+scene::Scene planar_rod(scene::Stiffness stiffness, const Vector3d& along) {
+  using namespace scene;
+  stiffness.mass_per_length_kg_per_m = 2e-3;
+  const Vector3d across = Vector3d::UnitX().cross(along);
+  Scene scene = support::uniform_rod(100, stiffness,
+                                     {Force{100, Frame::fixed, -0.1 * Vector3d::UnitX() + 0.2 * along},
+                                      Force{60, Frame::follower, 0.1 * along},
+                                      Moment{60, Frame::fixed, -6 * across},
+                                      DistributedForce{20, 80, Frame::follower, 2e-3 * along},
+                                      Gravity{981 * along}});
+  scene.sections[0].rest_curvature_per_mm = 4e-3 * across;
+  return scene;
+}
+
+TEST(PlanarSlopes, OfARodAreThoseInSpace) {
+  using What = fam::Response::What;
+  const scene::Stiffness slender = support::slender(600, 450);
+  scene::Stiffness soft = slender, strip = slender;
+  soft.axial_N = 300;
+  soft.shear_N = Eigen::Vector2d(90, 90);
+  strip.bending_Nmm2[0] *= 7;
+  for (const auto& [stiffness, along] :
+       {std::pair(soft, Vector3d(0, 0.6, -0.8)), std::pair(strip, Vector3d(0, 0, 1)),
+        std::pair(strip, Vector3d(0, -1, 0)), std::pair(slender, Vector3d(0, 0, -1))}) {
+    const scene::Scene scene = planar_rod(stiffness, along);
+    fam::Options options;
+    options.arcs = 30;
+    auto made = fam::Solver::make(scene, options);
+    auto& planar = std::get<fam::Solver>(made);
+    ASSERT_TRUE(planar.solve().converged());
+    support::SolvedRod spatial(scene, 30);
+    ASSERT_TRUE(spatial.converged());
+    for (const double s_mm : {47.0, 100.0}) {
+      const auto compliance = spatial.response().compliance(s_mm, What::pose);
+      EXPECT_LE((planar.compliance(s_mm) - compliance).norm(), 1e-9 * compliance.norm());
+      for (std::size_t load = 0; load < scene.loads.size(); ++load) {
+        const auto expected = spatial.response().by_load(load, s_mm, What::wrench);
+        EXPECT_LE((planar.wrench_by_load(load, s_mm) - expected).norm(), 1e-9 * expected.norm()) << load;
+      }
+    }
+  }
+}
+
+}  // namespace
