@@ -1,5 +1,7 @@
 #include "fam/answer.h"
 
+#include "fam/embedding.h"
+#include "fam/solution.h"
 #include "fam/stations.h"
 #include "scene/span_facts.h"
 
@@ -69,21 +71,6 @@ void report(const BasicBoundaryValue<D>& solver, Equilibrium& result) {
 template <int D>
 void report(const BasicMarch<D>&, Equilibrium&) {}
 
-// Turns each section about its tangent by what GJ adds to the rod that was solved: the moment about the tangent is
-// constant along a span.
-void twist_sections(Equilibrium& result, std::span<const Span> spans) {
-  double twist_rad = 0;
-  std::size_t i = 0;
-  for (std::size_t k = 1; k < result.stations.size(); ++k) {
-    scene::Station& station = result.stations[k];
-    const double last_mm = result.stations[k - 1].s_mm;
-    if (last_mm >= spans[i].end_mm) ++i;
-    const double moment_Nmm = station.moment_B_Nmm.dot(station.X_BS.rotation_BS.col(0));
-    twist_rad += twist_per_Nmm2(spans[i]) * moment_Nmm * (station.s_mm - last_mm);
-    station.X_BS.rotation_BS *= Eigen::AngleAxisd(twist_rad, Vector3d::UnitX()).toRotationMatrix();
-  }
-}
-
 template <int D>
 bool has_torsion(const SolvedRod<D>& rod) {
   if constexpr (D == 2) return false;
@@ -93,17 +80,42 @@ bool has_torsion(const SolvedRod<D>& rod) {
     });
 }
 
-std::string rounded(double value) {
-  std::ostringstream text;
-  text << std::setprecision(3) << value;
-  return text.str();
-}
-
 Equilibrium refusal(Status status, const std::string& message) {
   Equilibrium result;
   result.status = status;
   result.message = message;
   return result;
+}
+
+// The sum of the arcs' turns about the normal of the plane that a rod lies in: full turns count.
+template <int D>
+double turn_rad(const SolvedRod<D>& rod, const Matrix3d& rotation_BP, const Vector3d& normal_B) {
+  const Vector3d normal_P = rotation_BP.transpose() * normal_B;
+  double turn = 0;
+  for (const BasicArc<D>& arc : rod.arcs) turn += embedded_angular(arc.screw.rotation).dot(normal_P);
+  return std::abs(turn);
+}
+
+// Clamp and tip alone.
+void set_ends(Equilibrium& result, const Problem& problem, const Run& run, const Solution& solution) {
+  const auto station = [&](double s_mm, const Place& place) {
+    const scene::Wrench own_B = solution.own_wrench_B(place);
+    result.stations.push_back({s_mm, solution.pose(place), own_B.force_N, own_B.moment_Nmm});
+  };
+  result.stations.reserve(2);
+  station(0, {0, 0});
+  station(problem.length_mm(), {run.arc_count() - 1, 1});
+  const std::optional<Vector3d> normal_B = scene::plane_normal(problem.scene_spans());
+  result.tip_angle_rad =
+      !normal_B ? scene::tip_angle_rad(result.stations, {}) : run.engine.visit([&](const auto& solver) {
+        return turn_rad(solver.solved(), problem.choice().rotation_BP, *normal_B);
+      });
+}
+
+std::string rounded(double value) {
+  std::ostringstream text;
+  text << std::setprecision(3) << value;
+  return text.str();
 }
 
 }  // namespace
@@ -117,13 +129,22 @@ std::optional<bool> is_stable(const Problem& problem, const Run& run, const Run*
 }
 
 Equilibrium success(const Problem& problem, const Run& run, double error_mm, std::optional<bool> stable,
-                    const std::string& how) {
+                    const char* how) {
   const Choice& choice = problem.choice();
   const std::span<const Span> spans = problem.scene_spans();
+  if (run.engine.visit([](const auto& solver) { return any_tendon_collapsed(solver.solved()); })) {
+    return refusal(Status::tendon_collapsed, "a tendon's path has no length somewhere: |v + u x r| = 0");
+  }
   Equilibrium result;
   result.status = Status::converged;
   result.error_estimate_mm = error_mm;
   result.stable = stable;
+  Solution solution;
+  solution.set(problem, run);
+  if (!problem.options().whole_rod) {
+    set_ends(result, problem, run, solution);
+    return result;
+  }
   result.model = {{"law", std::string(name(choice.law))},
                   {"arcs", run.arc_count()},
                   {"planar", scene::plane_direction(spans).has_value()},
@@ -134,11 +155,15 @@ Equilibrium success(const Problem& problem, const Run& run, double error_mm, std
                   {"reason", reason(choice) + "; " + how}};
   run.engine.visit([&](const auto& solver) {
     set_shape(result, problem.scene(), problem.spans(), solver.solved(), choice.rotation_BP);
-    if (choice.round && result.converged()) twist_sections(result, spans);
-    if (result.converged()) report(solver, result);
+    report(solver, result);
   });
-  if (!result.converged()) result.stable.reset();
-  result.tip_angle_rad = result.converged() ? scene::tip_angle_rad(result.stations, scene::plane_normal(spans)) : 0;
+  if (choice.round) {
+    for (scene::Station& at : result.stations) {
+      const double twist_rad = solution.twist_rad(solution.place_at(at.s_mm));
+      at.X_BS.rotation_BS *= Eigen::AngleAxisd(twist_rad, Vector3d::UnitX()).toRotationMatrix();
+    }
+  }
+  result.tip_angle_rad = scene::tip_angle_rad(result.stations, scene::plane_normal(spans));
   return result;
 }
 

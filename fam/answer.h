@@ -16,7 +16,7 @@ std::optional<bool> is_stable(const Problem& problem, const Run& run, const Run*
                               int arcs_at_most = std::numeric_limits<int>::max());
 
 scene::Equilibrium success(const Problem& problem, const Run& run, double error_mm, std::optional<bool> stable,
-                           const std::string& how);
+                           const char* how);
 scene::Equilibrium failure(const Run& run);
 scene::Equilibrium too_long_for_series(const ArcExtent& extent);
 scene::Equilibrium tolerance_not_met(const Problem& problem, const Run& run, double error_mm);

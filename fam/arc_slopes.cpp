@@ -84,9 +84,7 @@ class MotionSlopes {
     motion_ = {w_, d_ + (B_ * wd_ + C_ * wwd), k.A.value, B_};
     way_ = d_ + (C_ * wwd - B_ * wd_);
   }
-  RigidMotion motion() const {
-    return {embedded_angular(w_), embedded(motion_.position_mm), motion_.A, motion_.B};
-  }
+  RigidMotion motion() const { return {embedded_angular(w_), embedded(motion_.position_mm), motion_.A, motion_.B}; }
   Vector3d way_mm() const { return embedded(way_); }
 
   Pair3 turn(const ScrewPair& screw) const {
@@ -229,14 +227,15 @@ ArcVariation<N> vary(Law law, const BasicArcConstants<3>& arc, const ArcForces<d
   const auto by_series = [&]<std::size_t terms>() {
     return vary_by_series<with_shear>(arc, forces, series_of<with_shear, terms>(arc, forces, wrench), wrench, change);
   };
-  if (N == 9 || (N == 3 && forces)) return by_series.template operator()<N == 6 ? 6 : 7>();
-  return by_series.template operator()<N == 9 ? 7 : 6>();
+  if (N == 9 || (N == 3 && forces)) return by_series.template operator() < N == 6 ? 6 : 7 > ();
+  return by_series.template operator() < N == 9 ? 7 : 6 > ();
 }
 
 // Of an arc in the x-y plane the changes that stay in it (turns and moments about z, ways and forces along x and y) and
 // those that leave it do not mix: a force and a moment along the same axis, one of each, take one column together. Here
 // the columns are told apart, each answer having its half.
-void tell_apart(const Matrix3d& together, bool of_turns, Eigen::Ref<Matrix3d> by_force, Eigen::Ref<Matrix3d> by_moment) {
+void tell_apart(const Matrix3d& together, bool of_turns, Eigen::Ref<Matrix3d> by_force,
+                Eigen::Ref<Matrix3d> by_moment) {
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
       const bool crosses = (row == 2) != (column == 2);
@@ -276,10 +275,9 @@ ArcVariation<N> vary_planar(const BasicArcConstants<3>& arc, const ArcForces<dou
   if (forces) along = {linear_part<2>(forces->follower_S_N), linear_part<2>(forces->fixed_D_N)};
   const ArcForces<double, 2>* planar_forces = forces ? &along : nullptr;
   const BasicWrench<double, 2> planar_wrench{linear_part<2>(wrench.force_N), angular_part<2>(wrench.moment_Nmm)};
-  const ArcVariation<N - 3> together =
-      vary_by_series<with_shear>(arc, planar_forces,
-                                 series_of<with_shear, terms>(in_plane(arc), planar_forces, planar_wrench), wrench,
-                                 changes_together<N - 3>());
+  const ArcVariation<N - 3> together = vary_by_series<with_shear>(
+      arc, planar_forces, series_of<with_shear, terms>(in_plane(arc), planar_forces, planar_wrench), wrench,
+      changes_together<N - 3>());
   ArcVariation<N> result{together.motion, together.way_D_mm, together.gain_D, {}};
   for (int row = 0; row < 12; row += 3) {
     tell_apart(together.slopes.template block<3, 3>(row, 0), row == 0 || row == 9,

@@ -24,6 +24,10 @@ struct Options {
   // With a fixed number of arcs the error estimate takes a second march of twice as many; false leaves it out (0).
   bool estimate_error = true;
 
+  // Of fam::solve. False: of the stations the clamp's and the tip's alone, neither shortenings of tendons nor facts of
+  // the model; then the answer costs little beside the solve.
+  bool whole_rod = true;
+
   // Of a Solver: arcs that memory is taken for, those of the estimate's finer run included, 1..max_arcs.
   int reserved_arcs = 1024;
 };

@@ -30,13 +30,14 @@ class Solution {
   // Base axes in the section frame, and the total internal wrench there as the law carries it (coupled laws); at an
   // arc's distal end with the loads at that place.
   SectionState<3> state(const Place& place) const;
+  // What the section there is turned about the tangent beyond the rod that was solved: of a round rod, by GJ; else 0.
+  double twist_rad(const Place& place) const;
   // The rod's own, as scene::Station has it.
   scene::Wrench own_wrench_B(const Place& place) const;
 
  private:
   std::size_t span_of(int arc) const;
   double length_of_arc_mm(std::size_t span) const;
-  double twist_rad(const Place& place) const;
   void shape() const;
 
   const Problem* problem_ = nullptr;

@@ -128,11 +128,6 @@ std::vector<double> shortenings_mm(const scene::Scene& scene, std::span<const sc
 template <int D>
 void set_shape(scene::Equilibrium& result, const scene::Scene& scene, std::span<const scene::Span> spans,
                const SolvedRod<D>& rod, const Matrix3d& rotation_BP) {
-  if (any_tendon_collapsed(rod)) {
-    result.status = scene::Status::tendon_collapsed;
-    result.message = "a tendon's path has no length somewhere: |v + u x r| = 0";
-    return;
-  }
   BasicShape<D> shape;
   shape.set(rod);
   ArcInterior<D> arc = shape.interior(0);

@@ -273,6 +273,42 @@ TEST(Answers, CoiledRods) {
   }
 }
 
+// Where only clamp and tip are asked for, they are those of the whole answer. Limit: round-off.
+TEST(Answers, ClampAndTipAloneAreThoseOfTheWholeRod) {
+  studies::RandomSceneLimits limits;
+  limits.load_max = 30;
+  int converged = 0, turned_fully = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    Scene scene = studies::random_scene(seed, limits);
+    if (seed % 10 == 0)
+      scene = uniform_rod(60, slender(750, 500), {scene::Moment{60, Frame::follower, {0, 60.0 + seed, 0}}});
+    fam::Options options;
+    const Equilibrium whole = fam::solve(scene, options);
+    options.whole_rod = false;
+    const Equilibrium ends = fam::solve(scene, options);
+    ASSERT_EQ(ends.status, whole.status);
+    if (!whole.converged()) continue;
+    ++converged;
+    turned_fully += whole.tip_angle_rad > 2 * std::numbers::pi;
+    ASSERT_EQ(ends.stations.size(), 2u);
+    EXPECT_TRUE(ends.model.empty());
+    EXPECT_EQ(ends.error_estimate_mm, whole.error_estimate_mm);
+    EXPECT_EQ(ends.stable, whole.stable);
+    EXPECT_NEAR(ends.tip_angle_rad, whole.tip_angle_rad, 1e-9);
+    for (const auto& [end, expected] :
+         {std::pair(ends.base(), whole.base()), std::pair(ends.stations.back(), whole.stations.back())}) {
+      EXPECT_EQ(end.s_mm, expected.s_mm);
+      EXPECT_LE((end.X_BS.position_B_mm - expected.X_BS.position_B_mm).norm(), 1e-12 * expected.s_mm);
+      EXPECT_LE((end.X_BS.rotation_BS - expected.X_BS.rotation_BS).norm(), 1e-9);
+      EXPECT_LE((end.force_B_N - expected.force_B_N).norm(), 1e-9 * whole.base().force_B_N.norm());
+      EXPECT_LE((end.moment_B_Nmm - expected.moment_B_Nmm).norm(), 1e-9 * whole.base().moment_B_Nmm.norm());
+    }
+  }
+  EXPECT_GT(converged, 250);
+  EXPECT_GT(turned_fully, 5);
+}
+
 // A tendon that would pull the rod's inside to a point, and beyond: no shape, and the status says why.
 TEST(Answers, CollapsedTendonsHaveNoShape) {
   for (const scene::Load& load : {scene::Load(scene::Force{40, Frame::follower, {0, 0.1, 0.2}}),

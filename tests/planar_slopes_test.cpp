@@ -40,8 +40,8 @@ void expect_same(fam::RodModel model, bool with_forces) {
     const PlanarArc arc = random_arc(random);
     const fam::ArcForces<double, 3>* forces = with_forces ? &arc.forces : nullptr;
     const auto planar = fam::vary_planar_arc<N>(model, arc.constants, forces, arc.wrench);
-    const auto spatial = fam::vary_arc(fam::Law::sixth_order, model, arc.constants, forces, arc.wrench,
-                                       fam::unit_changes<N>());
+    const auto spatial =
+        fam::vary_arc(fam::Law::sixth_order, model, arc.constants, forces, arc.wrench, fam::unit_changes<N>());
     for (int row = 0; row < 12; row += 3) {
       const Eigen::Matrix<double, 3, N> expected = spatial.slopes.template middleRows<3>(row);
       EXPECT_LE((planar.slopes.template middleRows<3>(row) - expected).norm(), 1e-13 * expected.norm()) << i << row;
@@ -67,10 +67,8 @@ scene::Scene planar_rod(scene::Stiffness stiffness, const Vector3d& along) {
   const Vector3d across = Vector3d::UnitX().cross(along);
   Scene scene = support::uniform_rod(100, stiffness,
                                      {Force{100, Frame::fixed, -0.1 * Vector3d::UnitX() + 0.2 * along},
-                                      Force{60, Frame::follower, 0.1 * along},
-                                      Moment{60, Frame::fixed, -6 * across},
-                                      DistributedForce{20, 80, Frame::follower, 2e-3 * along},
-                                      Gravity{981 * along}});
+                                      Force{60, Frame::follower, 0.1 * along}, Moment{60, Frame::fixed, -6 * across},
+                                      DistributedForce{20, 80, Frame::follower, 2e-3 * along}, Gravity{981 * along}});
   scene.sections[0].rest_curvature_per_mm = 4e-3 * across;
   return scene;
 }

@@ -18,7 +18,11 @@ class FamMethod : public Method {
   scene::Equilibrium solve(const scene::Scene& scene) const override { return fam::solve(scene, options_for(scene)); }
 
   std::function<void()> bare_solve(const scene::Scene& scene) const override {
-    if (options_.arcs == 0) return [scene, options = options_for(scene)] { fam::solve(scene, options); };
+    if (options_.arcs == 0) {
+      fam::Options tip_alone = options_for(scene);
+      tip_alone.whole_rod = false;
+      return [scene, tip_alone] { fam::solve(scene, tip_alone); };
+    }
     auto made = fam::Solver::make(scene, options_);
     if (std::holds_alternative<fam::Refusal>(made)) return [] {};
     return [solver = std::make_shared<fam::Solver>(std::get<fam::Solver>(std::move(made)))] {
@@ -37,7 +41,8 @@ class FamMethod : public Method {
   double tolerance_over_L_;
 };
 
-// With a fixed number of arcs the bare solve is that of a kept solver; with a tolerance it is all of fam::solve, choice included.
+// With a fixed number of arcs the bare solve is that of a kept solver; with a tolerance it is all of fam::solve for the
+// tip: choice, memory, estimate and stability.
 // tolerance_over_L > 0: in place of options.tolerance_mm, for each scene its own length's.
 inline std::unique_ptr<Method> fam_method(const fam::Options& options, double tolerance_over_L = 0) {
   return std::make_unique<FamMethod>(options, tolerance_over_L);
