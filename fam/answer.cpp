@@ -32,16 +32,18 @@ Stability stability_of(const Run& run) {
   return run.engine.visit([](const auto& solver) { return stability_of(solver); });
 }
 
-// The sign of the energy's second variation, from the run and the other or finer ones, until two agree of which one has
-// twice the other's arcs.
+// The sign of the energy's second variation, from the run and the other or finer ones, until two agree: where one has
+// less than twice the other's arcs, the more closely.
 template <int D>
 std::optional<bool> judged(const BasicBoundaryValue<D>& solver, const Problem& problem, const Run& run,
                            const Run* other, std::array<Run*, 2> spare, int arcs_at_most) {
   if (solver.one_equilibrium()) return true;
   Stability coarse = solver.stability();
-  const bool is_double = other && other->converged() &&
-                         (other->arc_count() == 2 * run.arc_count() || run.arc_count() == 2 * other->arc_count());
-  if (is_double && agree(coarse, stability_of(*other))) return coarse.conjugate_points == 0;
+  if (other && other->converged()) {
+    const auto [fewer, more] = std::minmax({run.arc_count(), other->arc_count()});
+    const double times = std::min(2.0, static_cast<double>(more) / fewer);
+    if (agree(coarse, stability_of(*other), times - 1)) return coarse.conjugate_points == 0;
+  }
   const Run* last = &run;
   for (int doublings = 0; doublings < most_stability_doublings; ++doublings) {
     Run& next = *spare[static_cast<std::size_t>(doublings % 2)];

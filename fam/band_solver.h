@@ -17,10 +17,12 @@ class BandSystem {
     size_ = size;
     rows_.assign(static_cast<std::size_t>(size), Row::Zero());
     right_.assign(static_cast<std::size_t>(size), 0);
+    pivots_.assign(static_cast<std::size_t>(size), 0);
   }
   void reserve(std::size_t size) {
     rows_.reserve(size);
     right_.reserve(size);
+    pivots_.reserve(size);
   }
   int size() const { return size_; }
   void set_zero() { std::fill(rows_.begin(), rows_.end(), Row::Zero()); }
@@ -28,13 +30,12 @@ class BandSystem {
   double& operator()(int row, int column) { return rows_[static_cast<std::size_t>(row)][column - row + below]; }
   Eigen::Map<Eigen::VectorXd> right() { return {right_.data(), size_}; }
 
-  // After solve(): the determinant's sign, and the logarithm of its size.
+  // After factorise(): the determinant's sign, and the logarithm of its size.
   bool determinant_is_negative() const { return negative_; }
   double log_determinant() const { return log_determinant_; }
 
-  // Replaces the right-hand side by the solution; the matrix is used up. False: a pivot is 0 or not finite.
-  bool solve() {
-    double* const right = right_.data();
+  // Replaces the matrix by its factors. False: a pivot is 0 or not finite.
+  bool factorise() {
     negative_ = false;
     log_determinant_ = 0;
     for (int k = 0; k < size_; ++k) {
@@ -45,9 +46,9 @@ class BandSystem {
         if (std::abs((*this)(i, k)) > std::abs((*this)(pivot, k))) pivot = i;
       }
       double* top = &(*this)(k, k);
+      pivots_[static_cast<std::size_t>(k)] = pivot;
       if (pivot != k) {
         std::swap_ranges(top, top + width, &(*this)(pivot, k));
-        std::swap(right[k], right[pivot]);
         negative_ = !negative_;
       }
       if (!(std::abs(*top) > 0) || !std::isfinite(*top)) return false;
@@ -56,17 +57,26 @@ class BandSystem {
       for (int i = k + 1; i <= last_row; ++i) {
         double* row = &(*this)(i, k);
         if (*row == 0) continue;
-        const double factor = *row / *top;
+        const double factor = *row /= *top;
         for (int j = 1; j < width; ++j) row[j] -= factor * top[j];
-        right[i] -= factor * right[k];
       }
+    }
+    return true;
+  }
+
+  // With the factors: replaces the right-hand side by the solution.
+  void substitute() {
+    double* const right = right_.data();
+    for (int k = 0; k < size_; ++k) {
+      std::swap(right[k], right[pivots_[static_cast<std::size_t>(k)]]);
+      const int last_row = std::min(k + below, size_ - 1);
+      for (int i = k + 1; i <= last_row; ++i) right[i] -= (*this)(i, k) * right[k];
     }
     for (int k = size_ - 1; k >= 0; --k) {
       const int last = std::min(k + below + above, size_ - 1);
       for (int j = k + 1; j <= last; ++j) right[k] -= (*this)(k, j) * right[j];
       right[k] /= (*this)(k, k);
     }
-    return true;
   }
 
  private:
@@ -76,6 +86,7 @@ class BandSystem {
   double log_determinant_ = 0;
   std::vector<Row> rows_;
   std::vector<double> right_;
+  std::vector<int> pivots_;  // the row that took this one's place
 };
 
 }  // namespace fam

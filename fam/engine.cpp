@@ -65,9 +65,11 @@ void Engine::set(const Problem& problem, std::span<const int> arcs_per_span) {
     else march_.set(way.to, arcs_per_span, choice.law, model, order);
     return;
   }
-  // Newton ends a thousandth of the tolerance away, or at round-off where none is given.
+  // Newton ends a thousandth of the tolerance away, or at round-off where the arcs are given and no tolerance is.
+  const bool has_tolerance = problem.options().arcs == 0 || problem.options().tolerance_mm > 0;
   const double tolerance =
-      std::clamp(1e-3 * problem.options().tolerance_mm / problem.length_mm(), tightest_newton_tolerance, 1e-6);
+      has_tolerance ? std::clamp(1e-3 * problem.tolerance_mm() / problem.length_mm(), tightest_newton_tolerance, 1e-6)
+                    : tightest_newton_tolerance;
   if (is_planar_) planar_boundary_value_.set(way, arcs_per_span, choice.law, model, tolerance);
   else boundary_value_.set(way, arcs_per_span, choice.law, model, tolerance);
 }

@@ -128,6 +128,17 @@ void Shooting<D>::start_unloaded() {
   }
 }
 
+template <int D>
+void Shooting<D>::set_residual(std::size_t k, const Node& arrived, SegmentEquations& equations) const {
+  const Node target = k > 0 ? nodes_[k - 1] : Node{Rotation::Identity(), {}};
+  auto& residual = equations.residual;
+  equations.mismatch = arrived.rotation_SB * target.rotation_SB.transpose();
+  equations.mismatch_is_small = is_small<D>(equations.mismatch);
+  residual.template head<rotations>() = sine_vector<double>(equations.mismatch);
+  residual.template segment<D>(rotations) = (arrived.wrench.force_N - target.wrench.force_N) / force_unit();
+  residual.template tail<rotations>() = (arrived.wrench.moment_Nmm - target.wrench.moment_Nmm) / moment_unit();
+}
+
 // Residual and derivatives of segment k with respect to the N unknowns of its node: the tip's rotations, or all.
 template <int D>
 template <int N>
@@ -142,14 +153,9 @@ void Shooting<D>::evaluate_segment(std::size_t k, SegmentEquations& equations) c
     fields.moment_Nmm.template rightCols<rotations>().diagonal().setConstant(moment_unit());
   }
   march_varied(rod_, segments_[k], state, fields);
-  const Node target = k > 0 ? nodes_[k - 1] : Node{Rotation::Identity(), {}};
-  const Rotation mismatch = state.rotation_SB * target.rotation_SB.transpose();
-  auto& [residual, arrival, mismatch_slope, mismatch_is_small] = equations;
-  mismatch_is_small = is_small<D>(mismatch);
+  set_residual(k, state, equations);
+  auto& [residual, mismatch, arrival, mismatch_slope, mismatch_is_small] = equations;
   mismatch_slope = sine_slope(mismatch);
-  residual.template head<rotations>() = sine_vector<double>(mismatch);
-  residual.template segment<D>(rotations) = (state.wrench.force_N - target.wrench.force_N) / force_unit();
-  residual.template tail<rotations>() = (state.wrench.moment_Nmm - target.wrench.moment_Nmm) / moment_unit();
   const Eigen::Matrix<double, rotations, rotations> by_turn = -sine_slope(Rotation(mismatch.transpose()));
   arrival.template topLeftCorner<rotations, N>() = by_turn.lazyProduct(fields.turn);
   arrival.template block<D, N>(rotations, 0) = fields.force_N / force_unit();
@@ -206,7 +212,7 @@ bool Shooting<D>::newton_one_segment(bool fresh_slope, double tolerance) {
     const double shrinkage = std::isfinite(last) ? std::min(size / last, 0.1) : 0.1;
     const double next = fresh_slope ? size * shrinkage : newton_curvature * size * size;
     if (next <= tolerance) return equations.mismatch_is_small;
-    fresh_slope = size < 0.4 && (!fresh_slope || size < 0.5 * last);
+    fresh_slope = slopes_last(fresh_slope, size, last);
     last = size;
   }
   return false;
@@ -221,7 +227,6 @@ void Shooting<D>::assemble(int k, const SegmentEquations& equations) {
   const int before = column - unknowns;
   const int row = k > 0 ? column - rotations - D : 0;
   for (int i = 0; i < (k > 0 ? unknowns : rotations); ++i) {
-    system_.right()[row + i] = -equations.residual[i];
     for (int j = 0; j < (tip ? rotations : unknowns); ++j) system_(row + i, column + j) = equations.arrival(i, j);
     if (k == 0) continue;
     if (i >= rotations) system_(row + i, before + i) = -1;
@@ -231,31 +236,51 @@ void Shooting<D>::assemble(int k, const SegmentEquations& equations) {
   }
 }
 
+template <int D>
+bool Shooting<D>::evaluate_system(bool keep_factors, bool& mismatches_are_small) {
+  SegmentEquations equations;
+  mismatches_are_small = true;
+  if (!keep_factors) system_.set_zero();
+  for (std::size_t k = 0; k < segments_.size(); ++k) {
+    if (keep_factors) {
+      Node state = nodes_[k];
+      rod_.march(segments_[k], state);
+      set_residual(k, state, equations);
+    } else {
+      if (k + 1 == segments_.size()) evaluate_segment<rotations>(k, equations);
+      else evaluate_segment<unknowns>(k, equations);
+      assemble(static_cast<int>(k), equations);
+    }
+    mismatches_are_small = mismatches_are_small && equations.mismatch_is_small;
+    const auto row = static_cast<Eigen::Index>(k > 0 ? unknowns * k - rotations - D : 0);
+    const auto rows = k > 0 ? unknowns : rotations;
+    system_.right().segment(row, rows) = -equations.residual.head(rows);
+  }
+  return system_.right().allFinite() && (keep_factors || system_.factorise());
+}
+
 // All segments together.
 template <int D>
-bool Shooting<D>::newton_segments(double tolerance) {
-  const auto count = static_cast<int>(segments_.size());
-  SegmentEquations equations;
+bool Shooting<D>::newton_segments(bool keep_factors, double tolerance) {
+  double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
     ++newton_steps_;
-    system_.set_zero();
-    bool small = true;
-    for (int k = 0; k < count; ++k) {
-      if (k + 1 == count) evaluate_segment<rotations>(static_cast<std::size_t>(k), equations);
-      else evaluate_segment<unknowns>(static_cast<std::size_t>(k), equations);
-      small = small && equations.mismatch_is_small;
-      assemble(k, equations);
-    }
-    if (!system_.right().allFinite() || !system_.solve() || !system_.right().allFinite()) return false;
+    bool small;
+    if (!evaluate_system(keep_factors, small)) return false;
+    system_.substitute();
+    if (!system_.right().allFinite()) return false;
     const double size = apply(system_.right());
-    if (newton_curvature * size * size <= tolerance) return small;
+    const double shrinkage = std::isfinite(last) ? size / last : 0.1;
+    if (size * (keep_factors ? shrinkage : newton_curvature * size) <= tolerance) return small;
+    keep_factors = keep_factors && slopes_last(true, size, last);
+    last = size;
   }
   return false;
 }
 
 template <int D>
 bool Shooting<D>::newton(double tolerance) {
-  return segments_.size() == 1 ? newton_one_segment(false, tolerance) : newton_segments(tolerance);
+  return segments_.size() == 1 ? newton_one_segment(false, tolerance) : newton_segments(false, tolerance);
 }
 
 template <int D>
@@ -286,8 +311,11 @@ bool Shooting<D>::solve_from(const Shooting& fewer) {
   for (ArcRange& segment : segments_) segment = {here(segment.first_arc), here(segment.end_arc)};
   nodes_ = fewer.nodes_;
   newton_steps_ = fewer.newton_steps_;
-  if (segments_.size() > 1) system_.resize(unknowns * static_cast<int>(segments_.size()) - rotations - D);
-  return solve_from_here();
+  set_load(1);
+  slope_ = fewer.slope_;
+  if (segments_.size() == 1) return newton_one_segment(true, newton_tolerance_);
+  system_ = fewer.system_;
+  return newton_segments(true, newton_tolerance_);
 }
 
 // Of a taut rod the determinant is cosh(int sqrt(n_x / EI) ds) for each plane of bending.

@@ -79,7 +79,7 @@ class Shooting {
   // The full load from the solution of the same spans with fewer arcs, each of which became several.
   bool solve_from(const Shooting& fewer);
 
-  // Of the equations' derivatives at the solution; exact, or as Newton's method left them.
+  // Of the equations' derivatives at the solution, after newton(); exact, or as that left them.
   scene::Determinant determinant(bool exact) const;
 
   // Clamp to tip: the segments, and the state at the distal end of each.
@@ -95,6 +95,7 @@ class Shooting {
   // to the node at the distal end, and that of the rotation with respect to the node arrived at.
   struct SegmentEquations {
     Eigen::Matrix<double, unknowns, 1> residual;
+    Rotation mismatch;
     Eigen::Matrix<double, unknowns, unknowns> arrival;
     Eigen::Matrix<double, rotations, rotations> mismatch_slope;
     bool mismatch_is_small;  // a residual of half a turn vanishes too
@@ -104,9 +105,19 @@ class Shooting {
   void set_few_arcs();
   template <int N>
   void evaluate_segment(std::size_t k, SegmentEquations& equations) const;
+  // Of the state that a march of segment k arrives with.
+  void set_residual(std::size_t k, const Node& arrived, SegmentEquations& equations) const;
   void assemble(int k, const SegmentEquations& equations);
+  // The residuals of all segments and, unless the factors are to be kept, their derivatives, factorised. False: not
+  // finite, or singular.
+  bool evaluate_system(bool keep_factors, bool& mismatches_are_small);
+  // fresh_slope, keep_factors: the derivatives at hand serve for the first step.
   bool newton_one_segment(bool fresh_slope, double tolerance);
-  bool newton_segments(double tolerance);
+  bool newton_segments(bool keep_factors, double tolerance);
+  // Whether derivatives that led to a step of this size do for the next one too.
+  static bool slopes_last(bool were_kept, double size, double last_size) {
+    return size < 0.4 && (!were_kept || size < 0.5 * last_size);
+  }
   double log_growth() const;
   double apply(const Eigen::Ref<const Eigen::VectorXd>& step);
   double force_unit() const { return least_stiffness_Nmm2_ / (length_mm_ * length_mm_); }

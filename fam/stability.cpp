@@ -16,8 +16,8 @@ int negative_eigenvalues(const Matrix3d& matrix) {
 
 }  // namespace
 
-bool agree(const Stability& a, const Stability& b) {
-  return a.conjugate_points == b.conjugate_points && std::abs(a.log_determinant - b.log_determinant) < 0.25;
+bool agree(const Stability& a, const Stability& b, double share) {
+  return a.conjugate_points == b.conjugate_points && std::abs(a.log_determinant - b.log_determinant) < 0.25 * share;
 }
 
 // Fields of small motions that leave the tip free, started there with three turns of it, marched to the clamp and

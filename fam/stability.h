@@ -17,8 +17,8 @@ struct Stability {
   int conjugate_points = 0;
   double log_determinant = 0;
 };
-// Two resolutions of one rod that tell the same: the determinants are closer than a quarter.
-bool agree(const Stability& a, const Stability& b);
+// Two resolutions of one rod that tell the same: the determinants are closer than this share of a quarter.
+bool agree(const Stability& a, const Stability& b, double share = 1);
 
 // Of the equilibrium under the rod's present load whose segments start at these nodes (clamp to tip, fam/shooting.h).
 // Only for fixed forces, gravity and tendons (the caller's to check).
