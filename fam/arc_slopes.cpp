@@ -300,7 +300,7 @@ StrainVariation vary_section(const BasicArcConstants<3>& arc, const SectionWrenc
   const SectionSlopes<true, 1> section(arc, rotation, translation);
   result.pull_slopes.setZero();
   if (!arc.tendons.empty()) {
-    const Eigen::Matrix<double, 6, 3> by_strain = section.tendon_stiffness(0) * result.strain_slopes;
+    const Eigen::Matrix<double, 6, 3> by_strain = section.tendon_stiffness() * result.strain_slopes;
     result.pull_slopes << by_strain.bottomRows<3>(), by_strain.topRows<3>();
   }
   if (change.constant == Constant::tension) {

@@ -8,9 +8,8 @@
 
 #include "fam/arc_section.h"
 #include "fam/arc_slopes.h"
+#include "fam/elimination.h"
 #include "fam/skew.h"
-
-#include <Eigen/LU>
 
 #include <array>
 
@@ -63,17 +62,27 @@ class SectionSlopes {
   SectionSlopes(const BasicArcConstants<3>& arc, const Series& rotation, const Series& translation)
       : arc_(arc), rotation_(rotation), translation_(translation) {
     if (arc.tendons.empty()) return;
-    for (Square& matrix : stiffness_) matrix.setZero();
-    for (const BasicTendon<3>& tendon : arc.tendons) add(tendon);
+    stiffness_.setZero();
+    for (std::size_t i = 0; i < arc.tendons.size(); ++i) set(arc.tendons[i], tendons_[i]);
     Eigen::Matrix<double, unknowns, 1> compliance;
     compliance.template head<3>() = arc.angular_compliance;
     if constexpr (with_shear) compliance.template tail<3>() = arc.linear_compliance;
-    const Square C = compliance.asDiagonal();
-    compliance_ = (Square::Identity() + C * stiffness_[0]).partialPivLu().solve(C);
+    Square factors = compliance.asDiagonal() * stiffness_;
+    factors.diagonal().array() += 1;
+    factorise(factors);
+    compliance_ = compliance.asDiagonal();
+    substitute(factors, compliance_);
   }
 
-  const Square& compliance() const { return compliance_; }                       // A at the distal end; with tendons
-  const Square& tendon_stiffness(std::size_t k) const { return stiffness_[k]; }  // S; with tendons
+  // All with tendons: A and S at the distal end.
+  const Square& compliance() const { return compliance_; }
+  const Square& tendon_stiffness() const { return stiffness_; }
+  // A tendon's part of S is B^T P B: its arm, that makes B, and the coefficients of P = T/|t| (1 - d d^T).
+  struct Tendon {
+    Vector3d arm_mm;
+    std::array<Matrix3d, terms> across;
+  };
+  std::span<const Tendon> tendons() const { return {tendons_.data(), arc_.tendons.size()}; }
 
   // The changes of the wrench that a changed constant is.
   ConstantSeries<terms> constant_series(Constant constant, const TendonArms& tendon_arms) const {
@@ -98,32 +107,33 @@ class SectionSlopes {
   }
 
  private:
-  void add(const BasicTendon<3>& tendon) {
+  void set(const BasicTendon<3>& tendon, Tendon& slopes) {
     const TendonSeries<terms> series(tendon.arm_mm, rotation_, translation_);
     std::array<double, terms> pull;      // T/|t|
     std::array<Matrix3d, terms> across;  // 1 - d d^T
-    const Matrix3d arm = skew(tendon.arm_mm);
+    slopes.arm_mm = tendon.arm_mm;
     for (std::size_t k = 0; k < terms; ++k) {
       pull[k] = k == 0 ? tendon.tension_N : 0;
       for (std::size_t j = 1; j <= k; ++j) pull[k] -= series.length[j] * pull[k - j];
       pull[k] /= series.length[0];
       across[k] = (k == 0 ? 1 : 0) * Matrix3d::Identity();
       for (std::size_t j = 0; j <= k; ++j) across[k] -= series.direction[j] * series.direction[k - j].transpose();
-      Matrix3d P = Matrix3d::Zero();
-      for (std::size_t j = 0; j <= k; ++j) P += pull[j] * across[k - j];
-      stiffness_[k].template topLeftCorner<3, 3>() -= arm * P * arm;
-      if constexpr (with_shear) {
-        stiffness_[k].template topRightCorner<3, 3>() += arm * P;
-        stiffness_[k].template bottomLeftCorner<3, 3>() -= P * arm;
-        stiffness_[k].template bottomRightCorner<3, 3>() += P;
-      }
+      slopes.across[k].setZero();
+      for (std::size_t j = 0; j <= k; ++j) slopes.across[k] += pull[j] * across[k - j];
+    }
+    const Matrix3d arm = skew(tendon.arm_mm), &P = slopes.across[0];
+    stiffness_.template topLeftCorner<3, 3>() -= arm * P * arm;
+    if constexpr (with_shear) {
+      stiffness_.template topRightCorner<3, 3>() += arm * P;
+      stiffness_.template bottomLeftCorner<3, 3>() -= P * arm;
+      stiffness_.template bottomRightCorner<3, 3>() += P;
     }
   }
 
   const BasicArcConstants<3>& arc_;
   const Series &rotation_, &translation_;
-  std::array<Square, terms> stiffness_;  // S
-  Square compliance_;                    // neither is set without tendons
+  Square stiffness_, compliance_;                           // S, A; not set without tendons
+  std::array<Tendon, scene::max_tendon_offsets> tendons_;  // on the stack, touched only as far as there are tendons
 };
 
 }  // namespace fam

@@ -162,6 +162,7 @@ class SeriesSlopes {
  private:
   struct Terms {
     std::array<Pair3, terms> rotation, translation, force, moment, fixed;
+    std::array<std::array<Pair3, terms>, D == 3 ? scene::max_tendon_offsets : 0> tendons;  // t h, as far as there are
   };
 
   // The strain under the wrench and what a changed constant is worth.
@@ -177,14 +178,12 @@ class SeriesSlopes {
     if constexpr (with_shear) d.translation[k] = {l[0] * force.x, l[1] * force.y, l[2] * force.z};
   }
   void set_tendon_strain(Terms& d, Pair3 force, Pair3 moment, std::size_t k) const {
-    for (std::size_t j = 1; j <= k; ++j) {
-      const auto S = -section_.tendon_stiffness(j);
-      moment += product(S.template topLeftCorner<3, 3>(), d.rotation[k - j]);
-      if constexpr (with_shear) {
-        moment += product(S.template topRightCorner<3, 3>(), d.translation[k - j]);
-        force += product(S.template bottomLeftCorner<3, 3>(), d.rotation[k - j]);
-        force += product(S.template bottomRightCorner<3, 3>(), d.translation[k - j]);
-      }
+    const auto tendons = section_.tendons();
+    for (std::size_t i = 0; k > 0 && i < tendons.size(); ++i) {
+      Pair3 pull = product(tendons[i].across[1], d.tendons[i][k - 1]);
+      for (std::size_t j = 2; j <= k; ++j) pull += product(tendons[i].across[j], d.tendons[i][k - j]);
+      moment += cross(pull, tendons[i].arm_mm);
+      if constexpr (with_shear) force += -1.0 * pull;
     }
     const auto& A = section_.compliance();
     d.rotation[k] = product(A.template topLeftCorner<3, 3>(), moment);
@@ -192,6 +191,10 @@ class SeriesSlopes {
       d.rotation[k] += product(A.template topRightCorner<3, 3>(), force);
       d.translation[k] = product(A.template bottomLeftCorner<3, 3>(), moment);
       d.translation[k] += product(A.template bottomRightCorner<3, 3>(), force);
+    }
+    for (std::size_t i = 0; i < tendons.size(); ++i) {
+      d.tendons[i][k] = cross(d.rotation[k], tendons[i].arm_mm);
+      if constexpr (with_shear) d.tendons[i][k] += d.translation[k];
     }
   }
 

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "fam/dual.h"
+#include "fam/elimination.h"
 #include "fam/screw.h"
 
 #include "scene/scene.h"
@@ -283,29 +284,6 @@ class TendonSection {
     const T inverse = T(1) / s.length[0];
     s.length[k] = T(0.5) * length * inverse;
     s.direction[k] = (direction - s.direction[0] * s.length[k]) * inverse;
-  }
-
-  // I + C S, similar to a positive definite matrix, needs no pivots.
-  template <class Number>
-  static void factorise(Eigen::Matrix<Number, unknowns, unknowns>& a) {
-    for (int k = 0; k < unknowns; ++k) {
-      const Number inverse = Number(1) / a(k, k);
-      for (int i = k + 1; i < unknowns; ++i) {
-        a(i, k) = a(i, k) * inverse;
-        for (int j = k + 1; j < unknowns; ++j) a(i, j) -= a(i, k) * a(k, j);
-      }
-    }
-  }
-  template <class Number>
-  static void substitute(const Eigen::Matrix<Number, unknowns, unknowns>& factors,
-                         Eigen::Matrix<Number, unknowns, 1>& x) {
-    for (int i = 1; i < unknowns; ++i) {
-      for (int j = 0; j < i; ++j) x[i] -= factors(i, j) * x[j];
-    }
-    for (int i = unknowns; i-- > 0;) {
-      for (int j = i + 1; j < unknowns; ++j) x[i] -= factors(i, j) * x[j];
-      x[i] = x[i] / factors(i, i);
-    }
   }
 
   const std::span<const BasicTendon<D>> tendons_;
