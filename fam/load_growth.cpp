@@ -28,7 +28,7 @@ double turn_between(const SectionState<D>& a, const SectionState<D>& b) {
 
 template <int D>
 void LoadGrowth<D>::set(const Shooting<D>& shooting) {
-  for (Nodes* nodes : {&start_, &guess_, &previous_, &earlier_}) nodes->resize(shooting.nodes().size());
+  for (Nodes* nodes : {&start_, &guess_, &previous_}) nodes->resize(shooting.nodes().size());
   watches_stability_ = scene::is_conservative(shooting.rod().way().bounds);
   if (!watches_stability_) return;
   judge_.reserve({shooting.nodes().size(), shooting.rod().way().to.size(), 0});  // so that no step takes memory
@@ -37,36 +37,24 @@ void LoadGrowth<D>::set(const Shooting<D>& shooting) {
 
 template <int D>
 void LoadGrowth<D>::reserve(const Room& room) {
-  for (Nodes* nodes : {&start_, &guess_, &previous_, &earlier_}) nodes->reserve(room.arcs);
+  for (Nodes* nodes : {&start_, &guess_, &previous_}) nodes->reserve(room.arcs);
   judge_.reserve(room);
 }
 
-// Where the last three loads point, or two: the polynomial through them, of rotations as turns from the last one.
+// Where the last two loads point: rotations along their relative turn, wrenches along their difference.
 template <int D>
 void LoadGrowth<D>::predict(const Shooting<D>& shooting, double factor) {
   const Nodes& nodes = shooting.nodes();
   guess_ = nodes;
   if (load_steps_ == 0) return;
-  const double ahead = factor - load_factor_, back = load_factor_ - previous_factor_;
-  double by_previous = -ahead / back, by_earlier = 0;  // of what they differ from the last one
-  if (load_steps_ > 1) {
-    const double far_back = load_factor_ - earlier_factor_;
-    by_previous *= (ahead + far_back) / (far_back - back);
-    by_earlier = ahead * (ahead + back) / (far_back * (far_back - back));
-  }
-  const auto predicted = [&](const auto& now, const auto& previous, const auto& earlier) {
-    return (now + by_previous * (previous - now) + by_earlier * (earlier - now)).eval();
-  };
+  const double ahead = (factor - load_factor_) / (load_factor_ - previous_factor_);
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     // R_B,new = R_B,now exp(turn): base axes in the section turn back.
-    const auto turn_to = [&](const SectionState<D>& other) {
-      return rotation_vector(Eigen::Matrix<double, D, D>(nodes[k].rotation_SB * other.rotation_SB.transpose()));
-    };
-    const Angular<double, D> turn = by_previous * turn_to(previous_[k]) + by_earlier * turn_to(earlier_[k]);
-    guess_[k].rotation_SB = turned(nodes[k].rotation_SB, turn);
-    const BasicWrench<double, D>&now = nodes[k].wrench, &previous = previous_[k].wrench, &earlier = earlier_[k].wrench;
-    guess_[k].wrench = {predicted(now.force_N, previous.force_N, earlier.force_N),
-                        predicted(now.moment_Nmm, previous.moment_Nmm, earlier.moment_Nmm)};
+    const Angular<double, D> turn =
+        rotation_vector(Eigen::Matrix<double, D, D>(previous_[k].rotation_SB * nodes[k].rotation_SB.transpose()));
+    guess_[k].rotation_SB = turned(nodes[k].rotation_SB, Angular<double, D>(ahead * turn));
+    guess_[k].wrench.force_N += ahead * (nodes[k].wrench.force_N - previous_[k].wrench.force_N);
+    guess_[k].wrench.moment_Nmm += ahead * (nodes[k].wrench.moment_Nmm - previous_[k].wrench.moment_Nmm);
   }
 }
 
@@ -89,8 +77,6 @@ std::optional<double> LoadGrowth<D>::try_step(Shooting<D>& shooting, double to) 
   surprise /= load_steps_ == 0 ? largest_turn_rad / 2 : largest_surprise_rad;
   accepted = accepted && turn <= largest_turn_rad && surprise <= 1;
   if (accepted && stays_on_branch(shooting, to - load_factor_)) {
-    std::swap(earlier_, previous_);
-    earlier_factor_ = previous_factor_;
     previous_ = start_;
     previous_factor_ = load_factor_;
     load_factor_ = to;

@@ -62,9 +62,9 @@ class LoadGrowth {
   bool stays_on_branch(Shooting<D>& shooting, double step);
   bool gives_up(const Shooting<D>& shooting, double step);
 
-  Nodes start_, guess_;       // of a step
-  Nodes previous_, earlier_;  // at the last loads but one and two
-  double load_factor_ = 0, previous_factor_ = 0, earlier_factor_ = 0, first_step_ = 1;
+  Nodes start_, guess_;  // of a step
+  Nodes previous_;       // at the last load but one
+  double load_factor_ = 0, previous_factor_ = 0, first_step_ = 1;
   scene::BranchWatch branch_;
   scene::Determinant start_determinant_;  // where the way starts
   bool watches_determinant_ = false;

@@ -14,7 +14,7 @@ namespace {
 using scene::Span;
 using scene::Status;
 
-// How far two solved rods are apart, at the ends and the middles of the first one's arcs.
+// How far two solved rods are apart, at the ends of the second one's arcs, which has more.
 struct Distance {
   double position_mm = 0;
   double rotation_rad = 0;  // where follower loads act, which turn with the section: their directions
@@ -26,20 +26,20 @@ bool is_loaded(const BasicWrench<double, D>& load) {
 }
 
 template <int D>
-Distance distance(const SolvedRod<D>& a, const SolvedRod<D>& b) {
+Distance distance(const SolvedRod<D>& fewer, const SolvedRod<D>& more) {
   Distance largest;
-  for (std::size_t i = 0; i < a.spans.size(); ++i) {
-    const SpanArcs<D>&span = a.spans[i], &other = b.spans[i];
-    const int count = span.end_arc - span.first_arc, other_count = other.end_arc - other.first_arc;
-    for (int half = 1; half <= 2 * count; ++half) {
-      const int arc = (half - 1) / 2;
-      const double fraction = half / 2. - arc, there = half / 2. * other_count / count;
-      const int other_arc = std::min(other_count - 1, static_cast<int>(there));
-      const BasicPose<D> here = ArcInterior<D>(a, span, span.first_arc + arc).pose(fraction);
-      const BasicPose<D> pose = ArcInterior<D>(b, other, other.first_arc + other_arc).pose(there - other_arc);
-      largest.position_mm = std::max(largest.position_mm, (here.position_B_mm - pose.position_B_mm).norm());
-      const bool loaded = !span.follower_force_S_N.isZero(0) || (half == 2 * count && is_loaded(span.follower_load_S));
-      if (loaded) {
+  for (std::size_t i = 0; i < more.spans.size(); ++i) {
+    const SpanArcs<D>&span = more.spans[i], &coarse = fewer.spans[i];
+    const long long count = span.end_arc - span.first_arc, coarse_count = coarse.end_arc - coarse.first_arc;
+    long long k = 1;
+    for (int whole = 0; whole < coarse_count; ++whole) {
+      ArcInterior<D> arc(fewer, coarse, coarse.first_arc + whole);
+      for (; k * coarse_count <= (whole + 1) * count; ++k) {
+        const BasicPose<D>& here = more.poses[static_cast<std::size_t>(span.first_arc + k)];
+        const BasicPose<D> pose = arc.pose(static_cast<double>(k * coarse_count - whole * count) / count);
+        largest.position_mm = std::max(largest.position_mm, (here.position_B_mm - pose.position_B_mm).norm());
+        const bool loaded = !span.follower_force_S_N.isZero(0) || (k == count && is_loaded(span.follower_load_S));
+        if (!loaded) continue;
         largest.rotation_rad =
             std::max(largest.rotation_rad, (here.rotation_BS - pose.rotation_BS).norm() / std::numbers::sqrt2);
       }
