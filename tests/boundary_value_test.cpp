@@ -268,6 +268,29 @@ TEST(BoundaryValue, NewtonStepsAreThoseOfOneRun) {
 }
 
 // A kept solver ends as solve() does with as many arcs: arcs too long for their series, a tendon without length.
+// An unloaded rod held at the clamp by half a turn: the residual, a sine, vanishes, and yet it is no solution.
+template <int D>
+void expect_half_turn_refused(double force_N, bool one_segment) {
+  const std::vector<scene::Span> spans = scene::spans_of(tip_force(slender(750, 577), {0, force_N, 0}));
+  const fam::GrowingLoads loads(spans);
+  const std::vector<int> arcs{12};
+  fam::Shooting<D> shooting;
+  shooting.set(loads.way(), arcs, Law::sixth_order, fam::RodModel::kirchhoff, 1e-10);
+  ASSERT_EQ(shooting.segments().size() == 1, one_segment);
+  shooting.start_unloaded();
+  EXPECT_TRUE(shooting.newton(1e-10));
+  auto nodes = shooting.nodes();
+  for (auto& node : nodes) node.rotation_SB.template leftCols<2>() *= -1;  // by half a turn about z
+  shooting.set_nodes(nodes);
+  EXPECT_FALSE(shooting.newton(1e-10));
+}
+TEST(BoundaryValue, HalfATurnOfTheClampIsNoSolution) {
+  expect_half_turn_refused<2>(0.5, true);
+  expect_half_turn_refused<3>(0.5, true);
+  expect_half_turn_refused<2>(20, false);
+  expect_half_turn_refused<3>(20, false);
+}
+
 TEST(BoundaryValue, KeptSolversRefuseWhatSolveRefuses) {
   const auto statuses = [](const scene::Scene& scene, int arcs) {
     fam::Options options;
