@@ -84,6 +84,19 @@ void cold_solve(const std::string& case_name, bool with_derivatives) {
   });
 }
 
+// fam::solve for clamp and tip, to the same tolerance: choice, memory, two resolutions, stability.
+void one_shot(const std::string& case_name) {
+  benchmark::RegisterBenchmark(("one_shot/" + case_name).c_str(), [=](benchmark::State& state) {
+    const scene::Scene scene = scene::read_scene_file(STUDY_CASES_DIR "/" + case_name + ".json");
+    fam::Options options;
+    options.tolerance_mm = 1e-4 * scene::length_mm(scene);
+    options.whole_rod = false;
+    while (state.KeepRunning()) {
+      if (!fam::solve(scene, options).converged()) state.SkipWithError("not converged");
+    }
+  });
+}
+
 template <int below, int above>
 void band(const std::string& name, int size) {
   benchmark::RegisterBenchmark(("band_solver/" + name + "/" + std::to_string(size)).c_str(),
@@ -131,6 +144,7 @@ int main(int argc, char** argv) {
        {"study1/S4_follower", "study1/P4_follower", "study1/S4_fixed", "study1/P2_fixed", "stream/catheter"}) {
     cold_solve(name, false);
     cold_solve(name, true);
+    one_shot(name);
   }
   band<4, 6>("planar", 33);
   band<11, 14>("spatial", 75);
