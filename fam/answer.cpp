@@ -99,19 +99,20 @@ double turn_rad(const SolvedRod<D>& rod, const Matrix3d& rotation_BP, const Vect
 }
 
 // Clamp and tip alone.
-void set_ends(Equilibrium& result, const Problem& problem, const Run& run, const Solution& solution) {
-  const auto station = [&](double s_mm, const Place& place) {
+std::vector<scene::Station> ends(const Problem& problem, const Solution& solution) {
+  const auto station = [&](double s_mm, const Place& place) -> scene::Station {
     const scene::Wrench own_B = solution.own_wrench_B(place);
-    result.stations.push_back({s_mm, solution.pose(place), own_B.force_N, own_B.moment_Nmm});
+    return {s_mm, solution.pose(place), own_B.force_N, own_B.moment_Nmm};
   };
-  result.stations.reserve(2);
-  station(0, {0, 0});
-  station(problem.length_mm(), {run.arc_count() - 1, 1});
+  return {station(0, {0, 0}), station(problem.length_mm(), {solution.arc_count() - 1, 1})};
+}
+
+// As Equilibrium has it.
+double tip_angle_rad(const Problem& problem, const Run& run, const std::vector<scene::Station>& stations) {
   const std::optional<Vector3d> normal_B = scene::plane_normal(problem.scene_spans());
-  result.tip_angle_rad =
-      !normal_B ? scene::tip_angle_rad(result.stations, {}) : run.engine.visit([&](const auto& solver) {
-        return turn_rad(solver.solved(), problem.choice().rotation_BP, *normal_B);
-      });
+  if (!normal_B) return scene::tip_angle_rad(stations, std::nullopt);
+  return run.engine.visit(
+      [&](const auto& solver) { return turn_rad(solver.solved(), problem.choice().rotation_BP, *normal_B); });
 }
 
 std::string rounded(double value) {
@@ -144,7 +145,8 @@ Equilibrium success(const Problem& problem, const Run& run, double error_mm, std
   Solution solution;
   solution.set(problem, run);
   if (!problem.options().whole_rod) {
-    set_ends(result, problem, run, solution);
+    result.stations = ends(problem, solution);
+    result.tip_angle_rad = tip_angle_rad(problem, run, result.stations);
     return result;
   }
   result.model = {{"law", std::string(name(choice.law))},
@@ -165,7 +167,7 @@ Equilibrium success(const Problem& problem, const Run& run, double error_mm, std
       at.X_BS.rotation_BS *= Eigen::AngleAxisd(twist_rad, Vector3d::UnitX()).toRotationMatrix();
     }
   }
-  result.tip_angle_rad = scene::tip_angle_rad(result.stations, scene::plane_normal(spans));
+  result.tip_angle_rad = tip_angle_rad(problem, run, result.stations);
   return result;
 }
 
