@@ -2,7 +2,7 @@
 
 #include "fam/arc_law.h"
 #include "fam/dual.h"
-#include "fam/embedding.h"
+#include "fam/motion_slopes.h"
 #include "fam/series_slopes.h"
 
 namespace fam {
@@ -66,76 +66,6 @@ struct DualSection {
                                                           slopes_of(wrench.moment_Nmm), constant, tendon_arms);
     return {with_slopes(screw.rotation, change.rotation), with_slopes(screw.translation_mm, change.translation)};
   }
-};
-
-// What an arc's screw makes of its own changes, and of those of the wrench at the proximal end: the turn and the way
-//   turn = (1 - B [w] + C [w]^2) dw,    way_D = (1 - B [w] + C [w]^2) d,
-// and the gain, that wrench carried back, less the one at the distal end.
-template <int D>
-class MotionSlopes {
- public:
-  explicit MotionSlopes(const BasicScrew<double, D>& screw) : w_(screw.rotation), d_(screw.translation_mm) {
-    const BasicCoefficients<Dual<1>> k = screw_coefficients(Dual<1>(w_.dot(w_), Dual<1>::Slope::Ones()));
-    B_ = k.B.value;
-    C_ = k.C.value;
-    wd_ = fam::cross(w_, d_);
-    const Vector<double, D> wwd = fam::cross(w_, wd_);
-    by_squared_ = k.C.slope[0] * wwd - k.B.slope[0] * wd_;
-    motion_ = {w_, d_ + (B_ * wd_ + C_ * wwd), k.A.value, B_};
-    way_ = d_ + (C_ * wwd - B_ * wd_);
-  }
-  RigidMotion motion() const { return {embedded_angular(w_), embedded(motion_.position_mm), motion_.A, motion_.B}; }
-  Vector3d way_mm() const { return embedded(way_); }
-
-  Pair3 turn(const ScrewPair& screw) const {
-    const Pair3 turned = cross(w_, screw.rotation);
-    return screw.rotation + (C_ * cross(w_, turned) + -B_ * turned);
-  }
-  Pair3 way(const ScrewPair& screw) const {
-    const Pair3 along = cross(w_, screw.translation) + cross(screw.rotation, d_);
-    return screw.translation + (C_ * (cross(w_, along) + cross(screw.rotation, wd_)) + -B_ * along) +
-           by_angle(screw.rotation);
-  }
-
-  void meet(const BasicWrench<double, D>& proximal) {
-    force_ = motion_.rotate_back(proximal.force_N);
-    if constexpr (D == 3) moment_ = motion_.rotate_back(proximal.moment_Nmm);
-    else moment_ = proximal.moment_Nmm;
-  }
-  SectionWrench gain(const SectionWrench& distal) const {
-    const Angular<double, D> moment = moment_ - arm_cross(way_, force_);
-    return {embedded(force_) - distal.force_N, embedded_angular(moment) - distal.moment_Nmm};
-  }
-  Pair3 carried_force(const Pair3& proximal_force, const Pair3& turn) const {
-    return rotate_back(proximal_force) + cross(force_, turn);
-  }
-  Pair3 carried_moment(const Pair3& proximal_moment, const Pair3& carried_force, const Pair3& turn,
-                       const Pair3& way) const {
-    return rotate_back(proximal_moment) + cross(moment_, turn) + cross(force_, way) + -1.0 * cross(way_, carried_force);
-  }
-
- private:
-  Pair3 rotate_back(const Pair3& x) const {
-    const Pair3 wx = cross(w_, x);
-    return x + (B_ * cross(w_, wx) + -motion_.A * wx);
-  }
-
-  // By the change of the angle's square.
-  Pair3 by_angle(const Pair3& turn) const {
-    const Vector<double, D>& by = by_squared_;
-    if constexpr (D == 2) {
-      const Pair squared = 2 * w_[0] * turn.z;
-      return {by[0] * squared, by[1] * squared, Pair{}};
-    } else {
-      const Pair squared = 2.0 * (w_[0] * turn.x + w_[1] * turn.y + w_[2] * turn.z);
-      return {by[0] * squared, by[1] * squared, by[2] * squared};
-    }
-  }
-
-  Angular<double, D> w_, moment_;
-  Vector<double, D> d_, wd_, by_squared_, way_, force_;
-  double B_, C_;
-  BasicMotion<double, D> motion_;
 };
 
 template <int D, int N>
