@@ -41,6 +41,10 @@ CLI::App* add_batch_command(CLI::App& app, BatchArguments& arguments) {
   batch->add_option("--output", arguments.output_path, "Results (CSV), a row a rod (default: -, standard output)");
   batch->add_flag_callback(
       "--no-estimate", [&arguments] { arguments.fam.estimate_error = false; }, "Leave the error estimate out");
+  batch
+      ->add_option("--threads", arguments.fam.threads,
+                   "Threads that share the rows (default: 1); 0: as many as the machine runs at once")
+      ->check(CLI::Range(0, 1024));
   batch->callback([&arguments] {
     if (arguments.scene_path == "-" && arguments.values_path == "-")
       throw CLI::ValidationError("--values", "standard input is the scene already");

@@ -104,6 +104,10 @@ double arcs_factor(Law law, double tolerance_over_L) {
   return std::clamp(std::pow(first_arcs_error / tolerance_over_L, 1.0 / facts_of(law).order), 1.0, 1e5);
 }
 
+double allowed_swing_rad(Law law, double tolerance_over_L) {
+  return first_turn_rad / arcs_factor(law, tolerance_over_L);
+}
+
 Choice choose(std::span<const Span> spans, const Options& options, double tolerance_mm) {
   Choice choice;
   choice.law = chosen(options.law);

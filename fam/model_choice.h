@@ -36,6 +36,8 @@ void set_first_arcs(std::span<const scene::Span> spans, bool planar, std::vector
 // ten were within 1e-5 of their length.
 constexpr double first_arcs_error = 0.3;
 double arcs_factor(Law law, double tolerance_over_L);
+// How far solved arcs may swing (load_length.h) for the tolerance.
+double allowed_swing_rad(Law law, double tolerance_over_L);
 
 // All that is fixed once the options are read against the loads, the largest on the way.
 struct Choice {

@@ -30,6 +30,9 @@ struct Options {
 
   // Of a Solver: arcs that memory is taken for, those of the estimate's finer run included, 1..max_arcs.
   int reserved_arcs = 1024;
+
+  // Of fam::solve_batch: threads that share the rows; 0: as many as the machine runs at once.
+  int threads = 1;
 };
 
 }  // namespace fam

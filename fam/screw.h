@@ -103,21 +103,25 @@ struct BasicCoefficients {
 };
 using ScrewCoefficients = BasicCoefficients<double>;
 
+// For an angle below 1 rad: the first dropped term is below 1/19! = 8e-18.
+template <class T>
+BasicCoefficients<T> small_screw_coefficients(const T& x) {
+  // clang-format off
+  return {1 - x * (1 / 6. - x * (1 / 120. - x * (1 / 5040. - x * (1 / 362880. - x * (1 / 39916800.
+            - x * (1 / 6227020800. - x * (1 / 1307674368000. - x * (1 / 355687428096000.)))))))),
+          1 / 2. - x * (1 / 24. - x * (1 / 720. - x * (1 / 40320. - x * (1 / 3628800. - x * (1 / 479001600.
+            - x * (1 / 87178291200. - x * (1 / 20922789888000.))))))),
+          1 / 6. - x * (1 / 120. - x * (1 / 5040. - x * (1 / 362880. - x * (1 / 39916800. - x * (1 / 6227020800.
+            - x * (1 / 1307674368000. - x * (1 / 355687428096000.)))))))};
+  // clang-format on
+}
+
 template <class T>
 BasicCoefficients<T> screw_coefficients(const T& angle_squared) {
   using std::sin;
   using std::sqrt;
   const T& x = angle_squared;
-  if (x < 1) {  // the first dropped term is below 1/19! = 8e-18
-    // clang-format off
-    return {1 - x * (1 / 6. - x * (1 / 120. - x * (1 / 5040. - x * (1 / 362880. - x * (1 / 39916800.
-              - x * (1 / 6227020800. - x * (1 / 1307674368000. - x * (1 / 355687428096000.)))))))),
-            1 / 2. - x * (1 / 24. - x * (1 / 720. - x * (1 / 40320. - x * (1 / 3628800. - x * (1 / 479001600.
-              - x * (1 / 87178291200. - x * (1 / 20922789888000.))))))),
-            1 / 6. - x * (1 / 120. - x * (1 / 5040. - x * (1 / 362880. - x * (1 / 39916800. - x * (1 / 6227020800.
-              - x * (1 / 1307674368000. - x * (1 / 355687428096000.)))))))};
-    // clang-format on
-  }
+  if (x < 1) return small_screw_coefficients(x);
   const T angle = sqrt(x);
   const T a = sin(angle) / angle;
   const T half = sin(angle / 2);

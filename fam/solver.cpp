@@ -132,15 +132,12 @@ Solver::Outcome Solver::Impl::solve(Start start) {
   return {last, engine.load_steps(), engine.newton_steps(), message_of(last)};
 }
 
-double Solver::Impl::allowed_swing_rad(const Problem& problem) {
-  return first_turn_rad / arcs_factor(problem.choice().law, problem.tolerance_mm() / problem.length_mm());
-}
-
 // The solved arcs turn and swing as far as the a priori bounds allow arcs to turn at most, or there are more of them.
 // False: that takes more than are reserved.
 bool Solver::Impl::refine(Attempt& attempt) {
   const Problem& problem = attempt.problem;
-  const double times = std::ceil(attempt.run.extent(problem).swing_rad / allowed_swing_rad(problem));
+  const double allowed_rad = allowed_swing_rad(problem.choice().law, problem.tolerance_mm() / problem.length_mm());
+  const double times = std::ceil(attempt.run.extent(problem).swing_rad / allowed_rad);
   if (!(times > 1)) return true;
   if (!(times * attempt.run.arc_count() <= reserved_arcs)) return false;
   spare[0].solve(problem, attempt.run.arcs, static_cast<int>(times), &attempt.run);

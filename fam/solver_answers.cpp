@@ -59,7 +59,8 @@ bool Solver::Impl::take_states_for_changes() {
   const auto& [problem, run] = *solved;
   take_states(solution, run.arcs);
   if (options.arcs > 0) return true;
-  const double times = std::ceil(swing_of_changes_rad() / allowed_swing_rad(problem));
+  const double allowed_rad = allowed_swing_rad(problem.choice().law, problem.tolerance_mm() / problem.length_mm());
+  const double times = std::ceil(swing_of_changes_rad() / allowed_rad);
   if (!(times > 1)) return true;
   if (!(times * run.arc_count() <= reserved_arcs)) return false;
   spare[0].solve(problem, run.arcs, static_cast<int>(times), &run);

@@ -57,7 +57,6 @@ struct Solver::Impl {
   bool refine(Attempt& attempt);
   void accept(Attempt& attempt);
   void place_ends();
-  static double allowed_swing_rad(const Problem& problem);  // of an arc, for the tolerance
   double swing_of_changes_rad() const;
   void take_states(const Solution& from, std::span<const int> arcs_per_span);
   bool take_states_for_changes();

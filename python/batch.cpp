@@ -40,10 +40,12 @@ std::vector<BatchColumn> columns_of(py::handle columns, const scene::Scene& scen
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 BatchResult solve_batch(py::handle scene, py::handle columns, py::handle values, py::object tolerance_mm,
-                        py::object arcs, bool estimate, py::object law, py::object model) {
+                        py::object arcs, bool estimate, py::object law, py::object model, int threads) {
   const scene::Scene read = scene_of(scene);
   fam::Options options = options_of({tolerance_mm, arcs, law, model});
   options.estimate_error = estimate;
+  if (threads < 0) refuse("threads", py::int_(threads), "must be >= 0");
+  options.threads = threads;
   const std::vector<BatchColumn> named = columns_of(columns, read);
   const auto numbers = Numbers::ensure(values);  // as it is where it is C-contiguous and float64
   if (!numbers || numbers.ndim() != 2) refuse("values", values, "must be an array of numbers, (rods, columns)");
@@ -92,14 +94,15 @@ The numbers of a row that did not converge are NaN. Arrays are read-only views.)
   module.def(
       "solve_batch", &solve_batch, py::arg("scene"), py::arg("columns"), py::arg("values"),
       py::arg("tolerance_mm") = py::none(), py::arg("arcs") = py::none(), py::arg("estimate") = true,
-      py::arg("law") = "auto", py::arg("model") = "auto",
-      R"(solve_batch(scene, columns, values, tolerance_mm=None, arcs=None, estimate=True, law='auto', model='auto') -> BatchResult
+      py::arg("law") = "auto", py::arg("model") = "auto", py::arg("threads") = 1,
+      R"(solve_batch(scene, columns, values, tolerance_mm=None, arcs=None, estimate=True, law='auto', model='auto', threads=1) -> BatchResult
 
 Solves one scene for many values of its loads.
 
 columns: which number of the scene each column of values replaces: (load, 'x' | 'y' | 'z'), of a tendon (load, 'tension').
 values: (n, columns), N, N mm, N/mm or m/s^2 as the load has it; a C-contiguous float64 array is not copied.
-estimate=False leaves the error estimates out. Else as fam.solve.
+estimate=False leaves the error estimates out. threads: that share the rows; 0: as many as the machine runs at once.
+Else as fam.solve.
 
 Each row is a cold solve, whatever the order of the rows. A row whose error estimate exceeds the tolerance has
 'tolerance_not_met'. Raises SceneError on wrong input. Other threads run meanwhile.)");

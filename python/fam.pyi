@@ -51,12 +51,14 @@ def solve_batch(
     estimate: bool = True,
     law: _Law = "auto",
     model: _Model = "auto",
+    threads: int = 1,
 ) -> BatchResult:
     """Solves one scene for many values of its loads, a row each.
 
     columns: which number of the scene each column of values replaces: (load, 'x'), ..., of a tendon (load, 'tension').
     values: (n, columns), N, N mm, N/mm or m/s^2 as the load has it; a C-contiguous float64 array is not copied.
-    estimate: False leaves the error estimates out. The others as of `solve`.
+    estimate: False leaves the error estimates out. threads: that share the rows; 0: as many as the machine runs at once.
+    The others as of `solve`.
 
     Each row is a cold solve, whatever the order of the rows; one whose error estimate exceeds the tolerance has
     'tolerance_not_met'. Raises SceneError on wrong input, before anything is solved. Other threads run meanwhile.

@@ -29,14 +29,30 @@ bool is_zero(const Load& load) {
       [](const Tendon& tendon) { return tendon.tension_N == 0; });
 }
 
+std::span<double> numbers_of(Load& load) {
+  using Numbers = std::span<double>;
+  return visit_load(
+      load,
+      [](Force& force) -> Numbers {
+        return {force.value_N.data(), 3};
+      },
+      [](Moment& moment) -> Numbers {
+        return {moment.value_Nmm.data(), 3};
+      },
+      [](DistributedForce& force) -> Numbers {
+        return {force.value_N_per_mm.data(), 3};
+      },
+      [](Gravity& gravity) -> Numbers {
+        return {gravity.acceleration_m_per_s2.data(), 3};
+      },
+      [](Tendon& tendon) -> Numbers {
+        return {&tendon.tension_N, 1};
+      });
+}
+
 Load scaled(const Load& load, double factor) {
   Load result = load;
-  visit_load(
-      result, [&](Force& force) { force.value_N *= factor; },  //
-      [&](Moment& moment) { moment.value_Nmm *= factor; },
-      [&](DistributedForce& force) { force.value_N_per_mm *= factor; },
-      [&](Gravity& gravity) { gravity.acceleration_m_per_s2 *= factor; },
-      [&](Tendon& tendon) { tendon.tension_N *= factor; });
+  for (double& number : numbers_of(result)) number *= factor;
   return result;
 }
 

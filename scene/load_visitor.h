@@ -5,6 +5,7 @@
 #include "scene/load.h"
 
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -38,6 +39,9 @@ Load scaled(const Load& load, double factor);
 
 // It has an energy: a fixed force, gravity, a tendon, or zero.
 bool is_conservative(const Load& load);
+
+// The numbers of its value; of a tendon, its tension.
+std::span<double> numbers_of(Load& load);
 
 // Null: another kind.
 const Tendon* tendon_of(const Load& load);

@@ -1,0 +1,166 @@
+#include "fam/lanes.h"
+
+#include "fam/load_length.h"
+#include "fam/rotation.h"
+#include "fam/span_arcs.h"
+
+#include "scene/load_visitor.h"
+#include "scene/span_facts.h"
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+
+namespace fam {
+namespace {
+
+using scene::Load;
+using scene::Scene;
+using scene::Span;
+
+// Every load's numbers 0, in a rod straight at rest.
+Scene unloaded(Scene scene) {
+  for (Load& load : scene.loads) std::ranges::fill(numbers_of(load), 0);
+  for (scene::Section& section : scene.sections) section.rest_curvature_per_mm.setZero();
+  return scene;
+}
+
+double& number_of(Scene& scene, const BatchColumn& column) {
+  return numbers_of(scene.loads[column.load])[static_cast<std::size_t>(column.component)];
+}
+
+// As the loads stand in `numbers`.
+template <int D>
+void write(const SpanArcs<D>& arcs, double* numbers) {
+  namespace at = lane_number;
+  const auto vector = [&](int first, const Vector<double, D>& v) { std::copy_n(v.data(), D, numbers + first); };
+  const auto turn = [&](int first, const Angular<double, D>& w) {
+    std::copy_n(w.data(), rotations_of(D), numbers + first + 3 - rotations_of(D));
+  };
+  vector(at::follower_force, arcs.follower_load_S.force_N);
+  turn(at::follower_moment, arcs.follower_load_S.moment_Nmm);
+  vector(at::fixed_force, arcs.fixed_load_B.force_N);
+  turn(at::fixed_moment, arcs.fixed_load_B.moment_Nmm);
+  for (int row = 0; row < D; ++row) {
+    for (int column = 0; column < D; ++column)
+      numbers[at::fixed_force_arms + 3 * row + column] = arcs.fixed_force_arms_BS_Nmm(row, column);
+  }
+  vector(at::distributed_follower, arcs.follower_force_S_N);
+  vector(at::distributed_fixed, arcs.fixed_force_B_N);
+  turn(at::rest_rotation, arcs.constants.rest_rotation);
+}
+
+bool is_distributed(int number) {
+  return number >= lane_number::distributed_follower && number < lane_number::rest_rotation;
+}
+
+template <int D>
+LaneSpan lane_span(const Span& span, RodModel model, int arcs) {
+  const SpanArcs<D> in_arcs(span, model, 0, arcs);
+  LaneSpan result{};
+  result.arcs = arcs;
+  result.arc_length_mm = span.length_mm() / arcs;
+  std::copy_n(in_arcs.constants.angular_compliance.data(), rotations_of(D),
+              result.angular_compliance + 3 - rotations_of(D));
+  std::copy_n(in_arcs.constants.linear_compliance.data(), D, result.linear_compliance);
+  write(in_arcs, result.numbers);
+  result.least_stiffness_Nmm2 = least_stiffness_Nmm2(span);
+  result.buckling_stiffness_Nmm2 = D == 2 ? span.stiffness.bending_Nmm2.minCoeff() : result.least_stiffness_Nmm2;
+  if (D == 3) result.spin_rate_per_Nmm2 = spin_rate_per_Nmm2(span);
+  if (model == RodModel::reissner) result.linear_compliance_per_N = linear_compliance_per_N(span);
+  if (D == 3) result.rest_turn_rad = span.length_mm() * span.rest_curvature_per_mm.norm();
+  for (int k = 0; k < lane_number::count; ++k) result.distributed |= is_distributed(k) && result.numbers[k] != 0;
+  for (const scene::SectionTendon& tendon : span.tendons) {
+    result.tendon_arms_mm[0] = std::min(result.tendon_arms_mm[0], tendon.arm_S_mm[1]);
+    result.tendon_arms_mm[1] = std::max(result.tendon_arms_mm[1], tendon.arm_S_mm[1]);
+  }
+  return result;
+}
+
+}  // namespace
+
+LaneProblem::LaneProblem(const Scene& scene, std::span<const BatchColumn> columns, const Options& options)
+    : scene_(scene), columns_(columns) {
+  const Scene* const scenes[] = {&scene_};
+  cutter_.cut(scenes);
+  // Two sets of values that nothing singles out: where both leave the rod in one plane, all do.
+  Choice choices[2];
+  for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      number_of(scene_, columns[i]) = 1 + std::fmod(std::numbers::phi * static_cast<double>((k + 1) * (i + 1)), 1);
+    }
+    cutter_.fill(scene_, given_);
+    choices[k] = choose(given_, options, 0);
+  }
+  choice_ = choices[0];
+  if (choice_.plane && (!choices[1].plane || *choices[1].plane != *choice_.plane)) {
+    choice_.plane.reset();
+    choice_.rotation_BP.setIdentity();
+    choice_.round = scene::is_round(given_);
+  }
+  has_tendons_ = std::ranges::any_of(given_, [](const Span& span) { return !span.tendons.empty(); });
+  for (const BatchColumn& column : columns) number_of(scene_, column) = 0;
+}
+
+bool LaneProblem::is_solvable(RodModel model) const {
+  const bool straight_tendons = choice_.plane && model == RodModel::kirchhoff;
+  return choice_.law == Law::sixth_order && (!has_tendons_ || straight_tendons);
+}
+
+// The spans of a scene as they are solved.
+std::span<const Span> LaneProblem::spans_of(const Scene& scene) {
+  cutter_.fill(scene, given_);
+  if (choice_.plane) turn_into_plane(given_, choice_, solved_);
+  else if (choice_.round) leave_out_torsion(given_, solved_);
+  else return given_;
+  return solved_;
+}
+
+template <int D>
+void LaneProblem::set_spans(RodModel model, std::span<const int> arcs_per_span) {
+  const std::span<const Span> spans = spans_of(scene_);
+  Matrix3d rest_tip_BS = Matrix3d::Identity();
+  lane_spans_.clear();
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    lane_spans_.push_back(lane_span<D>(spans[i], model, arcs_per_span[i]));
+    if (choice_.round) lane_spans_.back().twist_per_Nmm2 = twist_per_Nmm2(given_[i]);
+    rest_tip_BS *= rotation_matrix(Vector3d(spans[i].length_mm() * spans[i].rest_curvature_per_mm));
+  }
+  Eigen::Map<Matrix3d>(rods_.rest_tip_rotation_SB) = rest_tip_BS;  // by columns: its transpose by rows
+  const Scene nothing = unloaded(scene_);
+  terms_.clear();
+  for (std::size_t column = 0; column < columns_.size(); ++column) {
+    Scene unit = nothing;
+    number_of(unit, columns_[column]) = 1;
+    const std::span<const Span> loaded = spans_of(unit);
+    for (std::size_t i = 0; i < loaded.size(); ++i) {
+      const LaneSpan by_one = lane_span<D>(loaded[i], model, arcs_per_span[i]);
+      for (int k = 0; k < lane_number::count; ++k) {
+        if (by_one.numbers[k] == 0) continue;
+        terms_.push_back({static_cast<int>(i), k, static_cast<int>(column), by_one.numbers[k]});
+        lane_spans_[i].distributed |= is_distributed(k);
+      }
+      double* const arms_mm = lane_spans_[i].tendon_arms_mm;
+      arms_mm[0] = std::min(arms_mm[0], by_one.tendon_arms_mm[0]);
+      arms_mm[1] = std::max(arms_mm[1], by_one.tendon_arms_mm[1]);
+    }
+  }
+}
+
+LaneRods& LaneProblem::set(RodModel model, std::span<const int> arcs_per_span) {
+  if (choice_.plane) set_spans<2>(model, arcs_per_span);
+  else set_spans<3>(model, arcs_per_span);
+  rods_.spans = lane_spans_;
+  rods_.terms = terms_;
+  rods_.arc_count = std::accumulate(arcs_per_span.begin(), arcs_per_span.end(), 0);
+  rods_.columns = static_cast<int>(columns_.size());
+  rods_.planar = choice_.plane.has_value();
+  rods_.march = choice_.march;
+  rods_.reissner = model == RodModel::reissner;
+  rods_.round = choice_.round;
+  rods_.length_mm = scene::length_mm(scene_);
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rods_.rotation_BP) = choice_.rotation_BP;
+  return rods_;
+}
+
+}  // namespace fam
