@@ -19,7 +19,7 @@ namespace studies {
               row(segmentation, "How many arcs shall I take?", "20 s", false)                                   \
                   row(torsion, "What does torsion cost, in error and in time?", "10 s", false)                  \
                       row(study2, "How good is FAM on a catheter?", "10 s", false)                              \
-                          row(work_precision, "Which method is fastest at my accuracy?", "3 min", false)        \
+                          row(work_precision, "Which method is fastest at my accuracy?", "5 min", false)        \
                               row(stability, "Where does each method fail?", "1 min", false)                    \
                                   row(stream, "How fast is a kept solver on a stream of loads?", "10 s", false) \
                                       row(walks, "Does a kept solver stay on its branch?", "15 min", true)      \

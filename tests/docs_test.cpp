@@ -365,6 +365,19 @@ TEST_F(Docs, SceneFormatPageNamesEveryField) {
   EXPECT_GE(known, 30);
 }
 
+// The scenes of the page are those of its folder, and solved.
+TEST_F(Docs, RobotsPageNamesEveryScene) {
+  const fs::path folder = project / "studies/cases/robots";
+  std::set<std::string> scenes;
+  for (const auto& file : fs::directory_iterator(folder)) {
+    if (file.path().extension() != ".json") continue;
+    scenes.insert(file.path().stem().string());
+    EXPECT_EQ(run(fam, "solve '" + file.path().string() + "'").exit_status, 0) << file.path();
+  }
+  EXPECT_GE(scenes.size(), 12u);
+  EXPECT_EQ(all_matches(contents(folder / "README.md"), "\n\\| `(\\w+)` \\|"), scenes);
+}
+
 // "0.03" for 0.0261 and two decimals.
 std::string rounded(double value, int decimals) {
   std::ostringstream text;
@@ -399,8 +412,9 @@ TEST_F(Docs, ReadmeGivesTheErrorsOfStudy1) {
 // Links lead somewhere, and what stands in the words of these pages as a path in the project is one.
 TEST_F(Docs, LinksAndPathsExist) {
   int links = 0, paths = 0;
-  for (const std::string name : {"README.md", "CONTRIBUTING.md", "docs/scene_format.md", "docs/commands.md",
-                                 "docs/library.md", "docs/frames.svg", "docs/library.svg"}) {
+  for (const std::string name :
+       {"README.md", "CONTRIBUTING.md", "docs/scene_format.md", "docs/commands.md", "docs/library.md",
+        "docs/frames.svg", "docs/library.svg", "studies/cases/robots/README.md"}) {
     ASSERT_TRUE(fs::exists(project / name)) << name;
     const std::string page = contents(project / name);
     const fs::path folder = (project / name).parent_path();

@@ -1,12 +1,10 @@
 #include "studies/methods/rk4_method.h"
 
-#include "scene/load_visitor.h"
 #include "scene/span_facts.h"
 #include "studies/methods/rk4_shooting.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace studies {
@@ -24,13 +22,9 @@ std::shared_ptr<Rk4Shooting> prepared(const scene::Scene& scene, const Rk4Option
     span.fixed_force_arms_BS_Nmm *= load_share;
     span.follower_force_S_N_per_mm *= load_share;
     span.fixed_force_B_N_per_mm *= load_share;
+    for (scene::SectionTendon& tendon : span.tendons) tendon.tension_N *= load_share;
   }
   return std::make_shared<Rk4Shooting>(spans, scene::cells_per_span(spans, options.steps), options.with_shear);
-}
-
-bool has_tendon(const scene::Scene& scene) {
-  return std::any_of(scene.loads.begin(), scene.loads.end(),
-                     [](const scene::Load& load) { return scene::tendon_of(load) != nullptr; });
 }
 
 std::string reason(const Rk4Shooting& solver) {
@@ -49,11 +43,6 @@ class Rk4Method : public Method {
 
   scene::Equilibrium solve(const scene::Scene& scene) const override {
     scene::Equilibrium result;
-    if (has_tendon(scene)) {
-      result.status = scene::Status::unsupported;
-      result.message = "plain shooting takes forces, moments, distributed forces and gravity; this scene has a tendon";
-      return result;
-    }
     const std::shared_ptr<Rk4Shooting> solver = prepared(scene, options_);
     result.status = solver->run();
     result.model = {{"steps", options_.steps}, {"shear", options_.with_shear}, {"iterations", solver->iterations()}};
@@ -68,12 +57,10 @@ class Rk4Method : public Method {
   }
 
   std::function<void()> bare_solve(const scene::Scene& scene) const override {
-    if (has_tendon(scene)) return [] {};
     return [solver = prepared(scene, options_)] { solver->run(); };
   }
 
   std::function<void()> warm_solve(const scene::Scene& scene) const override {
-    if (has_tendon(scene)) return {};
     const std::shared_ptr<Rk4Shooting> earlier = prepared(scene, options_, earlier_share);
     if (earlier->run() != scene::Status::converged) return {};
     const std::shared_ptr<Rk4Shooting> solver = prepared(scene, options_);

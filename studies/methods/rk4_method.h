@@ -11,8 +11,8 @@ struct Rk4Options {
 };
 
 // The bare solve is Newton from zero; the warm one is Newton from the solution under loads smaller by a hundredth.
-// Tendons end in Status::unsupported. Error estimate: the distance of the tip from that with twice the steps, times
-// 16/15; infinite where twice the steps do not converge.
+// Error estimate: the distance of the tip from that with twice the steps, times 16/15; infinite where twice the steps do
+// not converge. By how much tendons shorten is not computed.
 std::unique_ptr<Method> rk4_method(const Rk4Options& options);
 
 }  // namespace studies

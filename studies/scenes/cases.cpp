@@ -2,10 +2,21 @@
 
 #include "scene/scene_file.h"
 
+#include <algorithm>
+
 namespace studies {
 
 scene::Scene read_case(const std::filesystem::path& cases, const std::string& name) {
   return scene::read_scene_file((cases / (name + ".json")).string());
+}
+
+std::vector<std::string> cases_in(const std::filesystem::path& cases, const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(cases / folder)) {
+    if (file.path().extension() == ".json") names.push_back(file.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 std::vector<std::string> study1_cases() {

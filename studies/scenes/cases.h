@@ -12,6 +12,9 @@ namespace studies {
 // A scene of the folder by its path without ending ("study1/P4_follower").
 scene::Scene read_case(const std::filesystem::path& cases, const std::string& name);
 
+// The names of all scene files of a folder ("robots"), sorted.
+std::vector<std::string> cases_in(const std::filesystem::path& cases, const std::string& folder);
+
 // P1..P8 (planar) and S1..S8 (spatial); files study1/P1_follower.json, study1/P1_fixed.json, ...
 std::vector<std::string> study1_cases();
 std::vector<std::string> study1_cases(bool planar);

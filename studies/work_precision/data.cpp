@@ -27,6 +27,14 @@ double quantile_or_infinite(std::vector<double> values, double share) {
 
 }  // namespace
 
+std::string key(WorkGroup group) {
+  return group == WorkGroup::follower ? "follower" : group == WorkGroup::fixed ? "fixed" : "robots";
+}
+
+std::string title(WorkGroup group) {
+  return group == WorkGroup::follower ? "Follower loads" : group == WorkGroup::fixed ? "Fixed loads" : "Robots";
+}
+
 std::vector<const WorkPoint*> WorkData::of(const std::string& scene, const std::string& series,
                                            const std::string& model) const {
   std::vector<const WorkPoint*> list;
@@ -36,10 +44,10 @@ std::vector<const WorkPoint*> WorkData::of(const std::string& scene, const std::
   return list;
 }
 
-std::vector<std::string> WorkData::names(bool follower) const {
+std::vector<std::string> WorkData::names(WorkGroup group) const {
   std::vector<std::string> list;
   for (const WorkScene& scene : scenes) {
-    if (scene.follower == follower) list.push_back(scene.name);
+    if (scene.group == group) list.push_back(scene.name);
   }
   return list;
 }
@@ -112,24 +120,24 @@ Spread spread_of(const std::vector<double>& values) {
           static_cast<int>(finite), static_cast<int>(values.size())};
 }
 
-Spread times_to_us(const WorkData& data, bool follower, const Contestant& contestant, double target) {
+Spread times_to_us(const WorkData& data, WorkGroup group, const Contestant& contestant, double target) {
   std::vector<double> times;
-  for (const std::string& scene : data.names(follower)) times.push_back(time_to_us(data, scene, contestant, target));
+  for (const std::string& scene : data.names(group)) times.push_back(time_to_us(data, scene, contestant, target));
   return spread_of(times);
 }
 
-Spread ratios_to_automatic(const WorkData& data, bool follower, const Contestant& rival, double target) {
+Spread ratios_to_automatic(const WorkData& data, WorkGroup group, const Contestant& rival, double target) {
   std::vector<double> ratios;
-  for (const std::string& scene : data.names(follower)) {
+  for (const std::string& scene : data.names(group)) {
     const double automatic = time_to_us(data, scene, contestant("fam"), target);
     if (std::isfinite(automatic)) ratios.push_back(time_to_us(data, scene, rival, target) / automatic);
   }
   return spread_of(ratios);
 }
 
-std::vector<int> wins_of(const WorkData& data, bool follower, const std::vector<Contestant>& among, double target) {
+std::vector<int> wins_of(const WorkData& data, WorkGroup group, const std::vector<Contestant>& among, double target) {
   std::vector<int> wins(among.size(), 0);
-  for (const std::string& scene : data.names(follower)) {
+  for (const std::string& scene : data.names(group)) {
     double best = infinite;
     std::size_t winner = among.size();
     for (std::size_t i = 0; i < among.size(); ++i) {

@@ -27,10 +27,18 @@ struct WorkPoint {
   bool unsupported() const { return status == "unsupported"; }
 };
 
+// What the tables and pictures tell apart: the studies' scenes whose loads all turn with the rod, their others, and
+// robots (studies/cases/robots) under whatever loads they have.
+enum class WorkGroup { follower, fixed, robots };
+inline const std::vector<WorkGroup> work_groups = {WorkGroup::follower, WorkGroup::fixed, WorkGroup::robots};
+std::string key(WorkGroup group);    // in CSV files and places of the page: "follower", ...
+std::string title(WorkGroup group);  // "Follower loads", ...
+
 struct WorkScene {
   std::string name;
-  std::string folder;     // of the scene file in studies/cases
-  bool follower = false;  // all loads turn with the rod
+  std::string folder;  // of the scene file in studies/cases
+  WorkGroup group = WorkGroup::fixed;
+  bool has_tendons = false;
 };
 
 struct WorkData {
@@ -40,7 +48,7 @@ struct WorkData {
 
   // The resolutions of a series on a scene, in order of rising effort.
   std::vector<const WorkPoint*> of(const std::string& scene, const std::string& series, const std::string& model) const;
-  std::vector<std::string> names(bool follower) const;
+  std::vector<std::string> names(WorkGroup group) const;
   // Resolutions that were tried on any of the scenes, in order of rising effort.
   std::vector<std::string> labels(const std::string& series, const std::string& model,
                                   const std::vector<std::string>& of_scenes) const;
@@ -77,18 +85,18 @@ struct Spread {
   int reached = 0, scenes = 0;
 };
 Spread spread_of(const std::vector<double>& values);
-Spread times_to_us(const WorkData& data, bool follower, const Contestant& contestant, double target);
+Spread times_to_us(const WorkData& data, WorkGroup group, const Contestant& contestant, double target);
 // Time over that of FAM's automatic choice, on the scenes where that reaches the target.
-Spread ratios_to_automatic(const WorkData& data, bool follower, const Contestant& contestant, double target);
+Spread ratios_to_automatic(const WorkData& data, WorkGroup group, const Contestant& contestant, double target);
 
 // On how many scenes each of these is the fastest within the target.
-std::vector<int> wins_of(const WorkData& data, bool follower, const std::vector<Contestant>& among, double target);
+std::vector<int> wins_of(const WorkData& data, WorkGroup group, const std::vector<Contestant>& among, double target);
 
 // File name to content; the tables of the page are Markdown.
 std::map<std::string, std::string> work_precision_tables(const WorkData& data);
-std::string times_table(const WorkData& data, bool follower);
-std::string ratios_table(const WorkData& data, bool follower);
-std::string resolutions_table(const WorkData& data, bool follower);
+std::string times_table(const WorkData& data, WorkGroup group);
+std::string ratios_table(const WorkData& data, WorkGroup group);
+std::string resolutions_table(const WorkData& data, WorkGroup group);
 std::string failures_table(const WorkData& data);
 std::string aims_table(const WorkData& data);
 

@@ -27,8 +27,8 @@ std::vector<Contestant> among(const std::vector<std::string>& methods) {
 }
 
 // "15.6 µs (11.0 … 21.2; 15 of 17)": median, quartiles, scenes that reach the target where these are not all.
-std::string time_phrase(const WorkData& data, bool follower, const std::string& method, double target) {
-  const Spread time = times_to_us(data, follower, contestant(method), target);
+std::string time_phrase(const WorkData& data, WorkGroup group, const std::string& method, double target) {
+  const Spread time = times_to_us(data, group, contestant(method), target);
   if (!std::isfinite(time.median)) return fmt::format("– ({} of {})", time.reached, time.scenes);
   const std::string share = time.reached == time.scenes ? "" : fmt::format("; {} of {}", time.reached, time.scenes);
   return fmt::format("{} ({} … {}{})", time_text(time.median), time_text(time.lower), time_text(time.upper), share);
@@ -37,13 +37,13 @@ std::string time_phrase(const WorkData& data, bool follower, const std::string& 
 enum class Counts { told, left_out };
 
 // "RK4 shooting at 1e-2 L (on 13 of 21); FAM automatic at 1e-5, 1e-8 L (on 14, 20 of 21)": who wins on most scenes.
-std::string winners(const WorkData& data, bool follower, const std::vector<std::string>& methods,
+std::string winners(const WorkData& data, WorkGroup group, const std::vector<std::string>& methods,
                     Counts wanted = Counts::told) {
   std::vector<std::string> parts;
   for (const std::string& method : methods) {
     std::vector<std::string> targets, counts;
     for (const double target : work_targets) {
-      const std::vector<int> wins = wins_of(data, follower, among(methods), target);
+      const std::vector<int> wins = wins_of(data, group, among(methods), target);
       const auto most = std::max_element(wins.begin(), wins.end());
       if (*most == 0 || methods[static_cast<std::size_t>(most - wins.begin())] != method) continue;
       targets.push_back(for_reader(scientific(target, 0)));
@@ -52,31 +52,35 @@ std::string winners(const WorkData& data, bool follower, const std::vector<std::
     if (targets.empty()) continue;
     parts.push_back(fmt::format("{} at {} L", method_row(method).name, fmt::join(targets, ", ")));
     if (wanted == Counts::told)
-      parts.back() += fmt::format(" (on {} of {})", fmt::join(counts, ", "), data.names(follower).size());
+      parts.back() += fmt::format(" (on {} of {})", fmt::join(counts, ", "), data.names(group).size());
   }
   return parts.empty() ? "not timed" : fmt::format("{}", fmt::join(parts, "; "));
 }
 
-// One of the two frames in a sentence or two.
-std::string frame_answer(const WorkData& data, bool follower) {
+// A group in a sentence or two.
+std::string group_answer(const WorkData& data, WorkGroup group) {
   return for_reader(
-      fmt::format("{} loads ({} scenes), fastest as called: {}. For a tip within 1e-3 L `fam solve` takes "
+      fmt::format("{} ({} scenes), fastest as called: {}. For a tip within 1e-3 L `fam solve` takes "
                   "{}, its bare "
                   "kernel (sixth order, fewest arcs) {}, RK4 shooting with the fewest steps {}, FE {}.",
-                  follower ? "Follower" : "Fixed", data.names(follower).size(), winners(data, follower, called),
-                  time_phrase(data, follower, "fam", 1e-3), time_phrase(data, follower, "fam_sixth_order", 1e-3),
-                  time_phrase(data, follower, "rk4", 1e-3), time_phrase(data, follower, "fe", 1e-3)));
+                  title(group), data.names(group).size(), winners(data, group, called),
+                  time_phrase(data, group, "fam", 1e-3), time_phrase(data, group, "fam_sixth_order", 1e-3),
+                  time_phrase(data, group, "rk4", 1e-3), time_phrase(data, group, "fe", 1e-3)));
 }
 
-// Both in a line.
+// All groups in a line.
 std::string short_answer(const WorkData& data) {
-  const auto fastest = [&](bool follower) { return winners(data, follower, called, Counts::left_out); };
-  const auto time = [&](bool follower, const std::string& method) {
-    return time_text(times_to_us(data, follower, contestant(method), 1e-3).median);
-  };
-  return for_reader(fmt::format(
-      "On most scenes, follower loads: {}; fixed loads: {}. Within 1e-3 L `fam solve` takes {} and {}, FE {} and {}",
-      fastest(true), fastest(false), time(true, "fam"), time(false, "fam"), time(true, "fe"), time(false, "fe")));
+  std::vector<std::string> fastest, fam_times, fe_times;
+  for (const WorkGroup group : work_groups) {
+    const auto time = [&](const std::string& method) {
+      return time_text(times_to_us(data, group, contestant(method), 1e-3).median);
+    };
+    fastest.push_back(title(group) + ": " + winners(data, group, called, Counts::left_out));
+    fam_times.push_back(time("fam"));
+    fe_times.push_back(time("fe"));
+  }
+  return for_reader(fmt::format("Fastest on most scenes. {}. Within 1e-3 L `fam solve` takes {}, FE {}",
+                                fmt::join(fastest, ". "), fmt::join(fam_times, ", "), fmt::join(fe_times, ", ")));
 }
 
 // What the load steps that keep finite elements to their branch cost: their time over that of the whole load at once.
@@ -108,12 +112,11 @@ double largest_reference_error(const WorkData& data) {
 }
 
 void set_times(Page& page, const WorkData& data) {
-  for (const bool follower : {true, false}) {
-    const std::string frame = follower ? "follower" : "fixed";
-    page.set_time("answer_" + frame, frame_answer(data, follower));
-    page.set_time("kernels_" + frame, winners(data, follower, kernels));
-    page.set_time("times_" + frame, times_table(data, follower));
-    page.set_time("ratios_" + frame, ratios_table(data, follower));
+  for (const WorkGroup group : work_groups) {
+    page.set_time("answer_" + key(group), group_answer(data, group));
+    page.set_time("kernels_" + key(group), winners(data, group, kernels));
+    page.set_time("times_" + key(group), times_table(data, group));
+    page.set_time("ratios_" + key(group), ratios_table(data, group));
   }
   page.set_time("aims", aims_table(data));
   page.set_time("machine", machine_line());
@@ -128,11 +131,13 @@ void set_times(Page& page, const WorkData& data) {
 std::string work_precision_page(const WorkData& data, const std::filesystem::path& page_md) {
   Page page;
   page.set("scenes", std::to_string(data.scenes.size()));
-  page.set("followers", std::to_string(data.names(true).size()));
-  page.set("fixed", std::to_string(data.names(false).size()));
+  for (const WorkGroup group : work_groups) {
+    page.set(key(group), std::to_string(data.names(group).size()));
+    page.set("resolutions_" + key(group), resolutions_table(data, group));
+  }
+  page.set("with_tendons", std::to_string(std::count_if(data.scenes.begin(), data.scenes.end(),
+                                                        [](const WorkScene& scene) { return scene.has_tendons; })));
   page.set("reference", for_reader(scientific(largest_reference_error(data), 0)));
-  page.set("resolutions_follower", resolutions_table(data, true));
-  page.set("resolutions_fixed", resolutions_table(data, false));
   page.set("failures", failures_table(data));
   page.set("lost", fmt::format("{}", lost_error));
   page.set("without_shooting", without_shooting(data));

@@ -1,5 +1,5 @@
-#include "studies/report/table.h"
 #include "studies/compare/timing_cells.h"
+#include "studies/report/table.h"
 
 #include "studies/report/provenance.h"
 #include "studies/work_precision/competitors.h"
@@ -45,12 +45,12 @@ std::string timing_csv(const WorkData& data) {
 }
 
 std::string time_to_csv(const WorkData& data) {
-  Table table({"scene", "loads", "method", "model", "start", "target_over_L", "time_us"});
+  Table table({"scene", "group", "method", "model", "start", "target_over_L", "time_us"});
   const auto add = [&](const WorkScene& scene, const std::string& series, const std::string& model, bool warm) {
     for (const double target : work_targets) {
       const double time = time_to_us(data, scene.name, series, model, target, warm);
-      table.add({scene.name, scene.follower ? "follower" : "fixed", series, model, warm ? "warm" : "cold",
-                 scientific(target, 0), std::isfinite(time) ? fixed(time, 2) : "nan"});
+      table.add({scene.name, key(scene.group), series, model, warm ? "warm" : "cold", scientific(target, 0),
+                 std::isfinite(time) ? fixed(time, 2) : "nan"});
     }
   };
   for (const WorkScene& scene : data.scenes) {
@@ -109,9 +109,9 @@ std::vector<std::string> head_of_targets(const std::string& first) {
 }
 
 // The coarsest resolution within the target on as many scenes as any; "32 [15/16]" where these are not all.
-std::string coarsest(const WorkData& data, bool follower, const std::string& series, const std::string& model,
+std::string coarsest(const WorkData& data, WorkGroup group, const std::string& series, const std::string& model,
                      double target) {
-  const std::vector<std::string> scenes = data.names(follower);
+  const std::vector<std::string> scenes = data.names(group);
   std::string best_label;
   int best = 0;
   for (const std::string& label : data.labels(series, model, scenes)) {
@@ -126,9 +126,9 @@ std::string coarsest(const WorkData& data, bool follower, const std::string& ser
   return best == 0 ? "–" : best_label + share_text(best, scenes.size());
 }
 
-bool solves_any(const WorkData& data, bool follower, const Contestant& contestant) {
+bool solves_any(const WorkData& data, WorkGroup group, const Contestant& contestant) {
   const std::string& series = contestant.series.back();
-  return coarsest(data, follower, series, contestant.model, work_targets.front()) != "–";
+  return coarsest(data, group, series, contestant.model, work_targets.front()) != "–";
 }
 
 // A finer resolution at least twice as far away as a coarser one, above round-off.
@@ -168,36 +168,35 @@ Failures failures_of(const WorkData& data, const std::string& series, const std:
 
 }  // namespace
 
-std::string times_table(const WorkData& data, bool follower) {
+std::string times_table(const WorkData& data, WorkGroup group) {
   Table table(head_of_targets("µs"));
   for (const Contestant& c : contestants()) {
     std::vector<std::string> cells{c.name()};
-    for (const double target : work_targets) cells.push_back(spread_cell(times_to_us(data, follower, c, target), 3));
-    if (solves_any(data, follower, c)) table.add(std::move(cells));
+    for (const double target : work_targets) cells.push_back(spread_cell(times_to_us(data, group, c, target), 3));
+    if (solves_any(data, group, c)) table.add(std::move(cells));
   }
   return table.markdown();
 }
 
-std::string ratios_table(const WorkData& data, bool follower) {
-  Table table(head_of_targets(follower ? "follower loads" : "fixed loads"));
+std::string ratios_table(const WorkData& data, WorkGroup group) {
+  Table table(head_of_targets(title(group)));
   for (const char* method : {"fam_sixth_order", "rk4", "fe"}) {
     const Contestant& rival = contestant(method);
     std::vector<std::string> cells{rival.name()};
     for (const double target : work_targets) {
-      cells.push_back(spread_cell(ratios_to_automatic(data, follower, rival, target), 2));
+      cells.push_back(spread_cell(ratios_to_automatic(data, group, rival, target), 2));
     }
     table.add(std::move(cells));
   }
   return table.markdown();
 }
 
-std::string resolutions_table(const WorkData& data, bool follower) {
-  Table table(head_of_targets(follower ? "follower loads" : "fixed loads"));
+std::string resolutions_table(const WorkData& data, WorkGroup group) {
+  Table table(head_of_targets(title(group)));
   for (const Contestant& c : contestants()) {
     std::vector<std::string> cells{c.name()};
-    for (const double target : work_targets)
-      cells.push_back(coarsest(data, follower, c.series.back(), c.model, target));
-    if (solves_any(data, follower, c)) table.add(std::move(cells));
+    for (const double target : work_targets) cells.push_back(coarsest(data, group, c.series.back(), c.model, target));
+    if (solves_any(data, group, c)) table.add(std::move(cells));
   }
   return table.markdown();
 }

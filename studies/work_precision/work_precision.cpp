@@ -1,9 +1,10 @@
-// fam-studies work-precision: the 16 cases of Study I in both frames, Study II with gravity and
-// studies/cases/work_precision, each solved by every method at every resolution and timed. Some three minutes; with
-// --quick one scene is timed.
+// fam-studies work-precision: the 16 cases of Study I in both frames, Study II with gravity,
+// studies/cases/work_precision and studies/cases/robots, each solved by every method at every resolution and timed.
+// Some three minutes; with --quick one scene is timed.
 #include "studies/study.h"
 
 #include "exact_reference/solve.h"
+#include "scene/load_visitor.h"
 #include "studies/report/output_file.h"
 #include "studies/report/provenance.h"
 #include "studies/scenes/cases.h"
@@ -19,11 +20,11 @@
 namespace studies {
 namespace {
 
-const std::string quick_scene = "P1_follower";
+const std::string quick_scene = "P1_follower", robots = "robots";
 const std::vector<std::string> many_meshes = {"S4_fixed", "study2_gravity_y"};
 const std::vector<std::string> most_meshes = {"P2_fixed", "S4_follower"};
 
-std::vector<WorkScene> work_scenes() {
+std::vector<WorkScene> work_scenes(const std::filesystem::path& cases) {
   std::vector<WorkScene> scenes;
   for (const std::string frame : {"follower", "fixed"}) {
     for (const std::string& load_case : study1_cases())
@@ -33,6 +34,7 @@ std::vector<WorkScene> work_scenes() {
   for (const std::string name : {"load_10", "load_100", "load_1000", "moment", "torque"}) {
     scenes.push_back({"work_precision_" + name, "work_precision"});
   }
+  for (const std::string& name : cases_in(cases, robots)) scenes.push_back({name, robots});
   return scenes;
 }
 
@@ -43,6 +45,11 @@ bool follows(const scene::Load& load) {
         else return std::is_same_v<std::decay_t<decltype(l)>, scene::Tendon>;
       },
       load);
+}
+
+WorkGroup group_of(const std::string& folder, const scene::Scene& scene) {
+  if (folder == robots) return WorkGroup::robots;
+  return std::all_of(scene.loads.begin(), scene.loads.end(), follows) ? WorkGroup::follower : WorkGroup::fixed;
 }
 
 FeMeshes meshes_for(const std::string& scene) {
@@ -61,10 +68,11 @@ scene::Equilibrium exact_rod(const scene::Scene& scene, const std::string& model
 class WorkPrecision {
  public:
   explicit WorkPrecision(const StudyOptions& options)
-      : options_(options), progress_("work-precision", 39, options.progress) {}
+      : options_(options),
+        data_{work_scenes(options.cases), {}, {}},
+        progress_("work-precision", data_.scenes.size() + 1, options.progress) {}
 
   void run() {
-    data_.scenes = work_scenes();
     for (WorkScene& scene : data_.scenes) solve_scene(scene);
     progress_.step("aims");
     data_.aims = measured_aims(options_);
@@ -76,7 +84,8 @@ class WorkPrecision {
     const std::string& name = of_study.name;
     progress_.step(name);
     const scene::Scene scene = read_case(options_.cases, of_study.folder + "/" + name);
-    of_study.follower = std::all_of(scene.loads.begin(), scene.loads.end(), follows);
+    of_study.group = group_of(of_study.folder, scene);
+    of_study.has_tendons = std::any_of(scene.loads.begin(), scene.loads.end(), scene::tendon_of);
     std::map<std::string, scene::Equilibrium> exact;
     for (const std::string& model : work_models) exact[model] = exact_rod(scene, model);
     for (const Competitor& competitor : competitors(meshes_for(name))) {
