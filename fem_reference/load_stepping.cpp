@@ -1,7 +1,6 @@
 #include "fem_reference/load_stepping.h"
 
 #include "fem_reference/beam_element.h"
-#include "fem_reference/stability.h"
 #include "fem_reference/tendon_pull.h"
 
 #include <algorithm>
@@ -231,7 +230,7 @@ class Stepping {
       last_.outcome = Outcome::surprised;
       return false;
     }
-    if (!stays_on_branch(trial, target)) return false;
+    if (!stays_on_branch(target)) return false;
     if (step > 0) {
       ++result_.load_steps;
       last_increment_ = difference(state_, trial);
@@ -255,14 +254,14 @@ class Stepping {
   }
 
   // Judges the equilibrium assembled last, and remembers it if it is on the branch.
-  bool stays_on_branch(const BeamState& state, double load_factor) {
+  bool stays_on_branch(double load_factor) {
     const std::optional<scene::Determinant> determinant =
         watches_determinant_ ? system_.determinant() : std::optional<scene::Determinant>(scene::Determinant{});
     if (!determinant || branch_.has_left(*determinant)) {
       last_.outcome = determinant ? Outcome::left_branch : Outcome::singular;
       return false;
     }
-    const std::optional<bool> stable = model_.conservative ? is_stable(model_, state, load_factor) : std::nullopt;
+    const std::optional<bool> stable = model_.conservative ? system_.is_stable() : std::nullopt;
     const bool may_fall =
         model_.symmetry != scene::Symmetry::none && load_factor - load_factor_ <= options_.smallest_bifurcation_step;
     if (stable == false && result_.stable != false && !may_fall) {
