@@ -54,22 +54,24 @@ struct Attempt {
   Residual residual;
 };
 
-// Newton's iteration at one load factor; `state` holds the predictor and then the result.
-Attempt iterate(BeamSystem& system, const BeamState& start, BeamState& state, double load_factor,
+// Newton's iteration at one load factor; `state` holds the predictor and then the result, whose tangent is assembled if
+// it is judged.
+Attempt iterate(BeamSystem& system, const BeamState& start, BeamState& state, double load_factor, bool is_judged,
                 const SteppingOptions& options) {
   Attempt attempt;
   BeamIncrement increment;
   // Not of the forces: where the rod hardly stretches or shears they follow from the strains with little accuracy, and
   // the residual bounds them.
-  double largest_increment = INFINITY;
+  double last_increment = 0, to_come = INFINITY;
   while (true) {
-    attempt.residual = system.assemble(state, load_factor);
+    const bool without_tangent = !is_judged && to_come <= options.tolerance;
+    attempt.residual = without_tangent ? system.residual(state, load_factor) : system.assemble(state, load_factor);
     attempt.rotation_rad = largest_rotation(start, state);
     if (!attempt.residual.finite() || !all_finite(state)) {
       attempt.outcome = Outcome::not_finite;
       return attempt;
     }
-    const bool converged = is_converged(largest_increment, attempt.residual, largest(state.force_S), options.tolerance);
+    const bool converged = is_converged(to_come, attempt.residual, largest(state.force_S), options.tolerance);
     // Before convergence the bound is wider: an iterate may overshoot and come back.
     if (attempt.rotation_rad > (converged ? 1.0 : 1.5) * options.largest_rotation_rad) {
       attempt.outcome = Outcome::turned_too_far;
@@ -79,13 +81,16 @@ Attempt iterate(BeamSystem& system, const BeamState& start, BeamState& state, do
       attempt.outcome = converged ? Outcome::converged : Outcome::stalled;
       return attempt;
     }
+    if (without_tangent) system.assemble(state, load_factor);
     if (!system.newton_increment(increment)) {
       attempt.outcome = Outcome::singular;
       return attempt;
     }
     ++attempt.iterations;
     advance(state, increment);
-    largest_increment = std::max(largest(increment.displacement_B), largest(increment.rotation_S));
+    const double this_increment = std::max(largest(increment.displacement_B), largest(increment.rotation_S));
+    to_come = next_increment(last_increment, this_increment);
+    last_increment = this_increment;
   }
 }
 
@@ -218,7 +223,7 @@ class Stepping {
     // Secant predictor: the last accepted step goes on.
     if (last_step_ > 0) advance(trial, last_increment_, step / last_step_);
     const BeamState guess = trial;
-    last_ = iterate(system_, state_, trial, target, options_);
+    last_ = iterate(system_, state_, trial, target, watches_determinant_ || model_.conservative, options_);
     result_.newton_iterations += last_.iterations;
     if (tendon_collapses(model_, state_, trial)) last_.outcome = Outcome::tendon_collapsed;
     if (last_.outcome != Outcome::converged) return false;
@@ -247,7 +252,7 @@ class Stepping {
     step_ = std::min(step_, 1 / std::max(load_size(model_), 1.0));
     for (const double load_factor : {0.0, 0.01 * step_}) {
       BeamState trial = state_;
-      last_ = iterate(system_, state_, trial, load_factor, options_);
+      last_ = iterate(system_, state_, trial, load_factor, true, options_);
       const std::optional<scene::Determinant> determinant = system_.determinant();
       if (last_.outcome == Outcome::converged && determinant) branch_.keep(load_factor, *determinant);
     }
@@ -303,6 +308,10 @@ class Stepping {
 };
 
 }  // namespace
+
+double next_increment(double last, double now) {
+  return now < last ? now * (now / last) : now;
+}
 
 bool is_converged(double largest_increment, const Residual& residual, double largest_force, double tolerance) {
   return largest_increment <= tolerance && residual.largest() <= tolerance * std::max(1.0, largest_force);
