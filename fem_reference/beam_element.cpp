@@ -1,7 +1,6 @@
 #include "fem_reference/beam_element.h"
 
-#include "fem_reference/section_strain.h"
-#include "fem_reference/tendon_pull.h"
+#include "fem_reference/point_terms.h"
 
 #include <array>
 
@@ -47,52 +46,6 @@ Matrix43 by_rotation(const Quaternion& q) {
   return 0.5 * E;
 }
 
-// Gradient and Hessian of the integrand by r', p, p' and n at one Gauss point, and the external force per length.
-struct PointTerms {
-  Matrix3d R;
-  Vector3d by_dr;  // the total force in the base frame
-  Vector3d by_n;   // v - e_x - C n
-  Quaternion by_p, by_dp;
-  Matrix3d by_dr_dr;  // second derivatives, rows by the first, columns by the second name
-  Matrix34 by_dr_p, by_dr_dp;
-  Matrix34 by_n_p;
-  Matrix4d by_p_p, by_p_dp, by_dp_dp;
-  Vector3d load_B;
-  Matrix34 load_by_p;
-};
-
-PointTerms point_terms(const ElementData& data, const Interpolated& at, const Vector3d& n, double load_factor) {
-  PointTerms terms;
-  terms.R = rotation_matrix(at.p);
-  const Vector3d v = terms.R.transpose() * at.dr_B;
-  const Curvature u = curvature(at.p, at.dp);
-  const TendonPull pull = tendon_pull(data, {v, u.value}, load_factor);
-  const Vector3d n_total = n + pull.force_S;
-  const Vector3d m_total = data.moment_stiffness.cwiseProduct(u.value - data.rest_curvature) + pull.moment_S;
-  terms.by_dr = terms.R * n_total;
-  terms.by_n = v - Vector3d::UnitX() - data.force_compliance.cwiseProduct(n);
-  terms.by_n_p = rotated_back_by_p(at.p, at.dr_B);
-  terms.by_p = terms.by_n_p.transpose() * n_total + u.by_p.transpose() * m_total;
-  terms.by_dp = u.by_dp.transpose() * m_total;
-
-  // The change of the total force and moment by p and p' in the section, then that of the section's frame.
-  const Matrix3d K = Matrix3d(data.moment_stiffness.asDiagonal()) + pull.by_u_u;
-  const Matrix34 n_by_p = pull.by_v_v * terms.by_n_p + pull.by_v_u * u.by_p, n_by_dp = pull.by_v_u * u.by_dp;
-  const Matrix34 m_by_p = pull.by_v_u.transpose() * terms.by_n_p + K * u.by_p, m_by_dp = K * u.by_dp;
-  const CurvaturePower power = curvature_power(at.p, at.dp, m_total);
-  terms.by_dr_dr = terms.R * pull.by_v_v * terms.R.transpose();
-  terms.by_dr_p = rotated_by_p(at.p, n_total) + terms.R * n_by_p;
-  terms.by_dr_dp = terms.R * n_by_dp;
-  terms.by_p_p = power_by_p_p(at.p, at.dr_B, n_total) + power.by_p_p + terms.by_n_p.transpose() * n_by_p +
-                 u.by_p.transpose() * m_by_p;
-  terms.by_p_dp = power.by_p_dp + terms.by_n_p.transpose() * n_by_dp + u.by_p.transpose() * m_by_dp;
-  terms.by_dp_dp = u.by_dp.transpose() * m_by_dp;
-
-  terms.load_B = load_factor * (data.fixed_force_B + terms.R * data.follower_force_S);
-  terms.load_by_p = load_factor * rotated_by_p(at.p, data.follower_force_S);
-  return terms;
-}
-
 // Where a node's or a point's unknowns start among the element's.
 int displacement_of(int node) {
   return 6 * node;
@@ -107,46 +60,117 @@ int force_of(const ReferenceElement& reference, int g) {
 using NodalMaps = std::array<Matrix43, max_nodes>;         // derivative of each q_i by its rotation vector
 using NodalGradients = std::array<Quaternion, max_nodes>;  // derivative of the functional by each q_i
 
-void add_residual(const ReferenceElement& reference, double length, int g, const PointTerms& terms,
-                  NodalGradients& by_q, ElementSystem& system) {
+void add_residual(const ReferenceElement& reference, double length, int g, const PointGradient& terms,
+                  NodalGradients& by_q, ElementResidual& residual) {
   const double w = reference.weight(g) * length;
-  system.residual.segment<3>(force_of(reference, g)) += w * terms.by_n;
+  residual.segment<3>(force_of(reference, g)) = w * terms.by_n;
   for (int i = 0; i < reference.nodes(); ++i) {
     const double N = reference.value(g, i), dN = reference.slope(g, i) / length;
-    system.residual.segment<3>(displacement_of(i)) += w * (dN * terms.by_dr - N * terms.load_B);
+    residual.segment<3>(displacement_of(i)) += w * (dN * terms.by_dr - N * terms.load_B);
     by_q[static_cast<std::size_t>(i)] += w * (N * terms.by_p + dN * terms.by_dp);
   }
 }
 
-void add_tangent(const ReferenceElement& reference, double length, int g, const PointTerms& terms,
-                 const Vector3d& force_compliance, const NodalMaps& E, ElementSystem& system) {
-  const double w = reference.weight(g) * length;
-  const int n = force_of(reference, g);
-  auto& K = system.tangent;
-  K.block<3, 3>(n, n) -= w * Matrix3d(force_compliance.asDiagonal());
-  for (int j = 0; j < reference.nodes(); ++j) {
-    const double Nj = reference.value(g, j), dNj = reference.slope(g, j) / length;
-    const int rj = displacement_of(j), tj = rotation_of(j);
-    const Matrix43& Ej = E[static_cast<std::size_t>(j)];
-    const Matrix3d n_by_t = w * Nj * terms.by_n_p * Ej;
-    K.block<3, 3>(n, rj) += w * dNj * terms.R.transpose();
-    K.block<3, 3>(rj, n) += w * dNj * terms.R;
-    K.block<3, 3>(n, tj) += n_by_t;
-    K.block<3, 3>(tj, n) += n_by_t.transpose();
-    const Matrix43 by_p_t = (Nj * terms.by_p_p + dNj * terms.by_p_dp) * Ej;
-    const Matrix43 by_dp_t = (Nj * terms.by_p_dp.transpose() + dNj * terms.by_dp_dp) * Ej;
-    const Matrix3d by_dr_t = (Nj * terms.by_dr_p + dNj * terms.by_dr_dp) * Ej;
-    const Matrix3d load_by_t = Nj * terms.load_by_p * Ej;
-    for (int i = 0; i < reference.nodes(); ++i) {
-      const double Ni = reference.value(g, i), dNi = reference.slope(g, i) / length;
-      const int ri = displacement_of(i), ti = rotation_of(i);
-      const Matrix3d r_by_t = w * dNi * by_dr_t;
-      K.block<3, 3>(ti, tj) += w * E[static_cast<std::size_t>(i)].transpose() * (Ni * by_p_t + dNi * by_dp_t);
-      K.block<3, 3>(ri, rj) += w * dNi * dNj * terms.by_dr_dr;
-      K.block<3, 3>(ri, tj) += r_by_t - w * Ni * load_by_t;
-      K.block<3, 3>(tj, ri) += r_by_t.transpose();
+// Second derivatives of the functional, summed over the points, by q_i and q_j and by r_i and q_j.
+struct NodalHessians {
+  std::array<std::array<Matrix4d, max_nodes>, max_nodes> by_q_q;  // i <= j
+  std::array<std::array<Matrix34, max_nodes>, max_nodes> by_r_q;
+  std::array<std::array<Matrix34, max_nodes>, max_nodes> load_by_q;  // of the loads at r_i, which have no energy
+};
+
+void set_zero(NodalHessians& hessians, std::size_t nodes) {
+  for (std::size_t i = 0; i < nodes; ++i) {
+    for (std::size_t j = 0; j < nodes; ++j) {
+      hessians.by_q_q[i][j].setZero();
+      hessians.by_r_q[i][j].setZero();
+      hessians.load_by_q[i][j].setZero();
     }
   }
+}
+
+void add_hessians(const ReferenceElement& reference, const ElementData& data, int g, const PointHessian& terms,
+                  NodalHessians& hessians) {
+  const double w = reference.weight(g) * data.length;
+  const bool load_turns = !data.follower_force_S.isZero(0);
+  for (int j = 0; j < reference.nodes(); ++j) {
+    const double Nj = reference.value(g, j), dNj = reference.slope(g, j) / data.length;
+    const Matrix4d by_p_q = w * (Nj * terms.by_p_p + dNj * terms.by_p_dp);
+    const Matrix4d by_dp_q = w * (Nj * terms.by_p_dp.transpose() + dNj * terms.by_dp_dp);
+    const Matrix34 by_dr_q = w * (Nj * terms.by_dr_p + dNj * terms.by_dr_dp);
+    for (int i = 0; i < reference.nodes(); ++i) {
+      const double Ni = reference.value(g, i), dNi = reference.slope(g, i) / data.length;
+      const auto row = static_cast<std::size_t>(i), column = static_cast<std::size_t>(j);
+      if (i <= j) hessians.by_q_q[row][column] += Ni * by_p_q + dNi * by_dp_q;
+      hessians.by_r_q[row][column] += dNi * by_dr_q;
+      if (load_turns) hessians.load_by_q[row][column] += (w * Ni * Nj) * terms.load_by_p;
+    }
+  }
+}
+
+// What a point's internal force and the displacements have to do with each other, and the force with the turns.
+void add_point_tangent(const ReferenceElement& reference, const ElementData& data, int g, const PointGradient& terms,
+                       const Matrix3d& by_dr_dr, const NodalMaps& E, ElementSystem& system) {
+  const double w = reference.weight(g) * data.length;
+  const int n = force_of(reference, g);
+  auto& K = system.tangent;
+  K.block<3, 3>(n, n) = -w * Matrix3d(data.force_compliance.asDiagonal());
+  for (int j = 0; j < reference.nodes(); ++j) {
+    const double Nj = reference.value(g, j), dNj = reference.slope(g, j) / data.length;
+    const int rj = displacement_of(j), tj = rotation_of(j);
+    const Matrix3d n_by_t = w * Nj * terms.by_n_p * E[static_cast<std::size_t>(j)];
+    K.block<3, 3>(n, rj) = w * dNj * terms.R.transpose();
+    K.block<3, 3>(rj, n) = w * dNj * terms.R;
+    K.block<3, 3>(n, tj) = n_by_t;
+    K.block<3, 3>(tj, n) = n_by_t.transpose();
+    for (int i = 0; !data.tendons.empty() && i < reference.nodes(); ++i) {
+      K.block<3, 3>(displacement_of(i), rj) += w * reference.slope(g, i) / data.length * dNj * by_dr_dr;
+    }
+  }
+}
+
+void add_nodal_tangent(const NodalHessians& hessians, int nodes, const NodalMaps& E, ElementSystem& system) {
+  auto& K = system.tangent;
+  for (int j = 0; j < nodes; ++j) {
+    const auto column = static_cast<std::size_t>(j);
+    const int tj = rotation_of(j);
+    for (int i = 0; i < nodes; ++i) {
+      const auto row = static_cast<std::size_t>(i);
+      const int ri = displacement_of(i), ti = rotation_of(i);
+      const Matrix3d r_by_t = hessians.by_r_q[row][column] * E[column];
+      K.block<3, 3>(tj, ri) = r_by_t.transpose();
+      K.block<3, 3>(ri, tj) = r_by_t - hessians.load_by_q[row][column] * E[column];
+      if (i > j) continue;
+      const Matrix3d t_by_t = E[row].transpose() * (hessians.by_q_q[row][column] * E[column]);
+      K.block<3, 3>(ti, tj) = t_by_t;
+      if (i < j) K.block<3, 3>(tj, ti) = t_by_t.transpose();
+    }
+  }
+}
+
+// Residual of the element from its points; `also(g, interpolated, gradient)` is called at each of them.
+template <typename Also>
+void sum_points(const ReferenceElement& reference, const ElementData& data, const ElementState& state,
+                double load_factor, ElementResidual& residual, NodalGradients& by_q, const NodalMaps& E,
+                const Also& also) {
+  residual.setZero(6 * reference.nodes() + 3 * reference.points());
+  for (Quaternion& gradient : by_q) gradient.setZero();
+  for (int g = 0; g < reference.points(); ++g) {
+    const Interpolated at = interpolate(reference, data.length, state, g);
+    const PointGradient terms(data, at.dr_B, at.p, at.dp, state.force_S[static_cast<std::size_t>(g)], load_factor);
+    add_residual(reference, data.length, g, terms, by_q, residual);
+    also(g, at, terms);
+  }
+  for (int i = 0; i < reference.nodes(); ++i) {
+    const auto node = static_cast<std::size_t>(i);
+    residual.segment<3>(rotation_of(i)) = E[node].transpose() * by_q[node];
+  }
+}
+
+NodalMaps nodal_maps(const ReferenceElement& reference, const ElementState& state) {
+  NodalMaps E;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(reference.nodes()); ++i)
+    E[i] = by_rotation(state.rotation_BS[i]);
+  return E;
 }
 
 }  // namespace
@@ -160,29 +184,32 @@ ElementState state_of_element(const BeamModel& model, const BeamState& state, st
           {&state.force_S[e * points], points}};
 }
 
+void element_residual(const ReferenceElement& reference, const ElementData& data, const ElementState& state,
+                      double load_factor, ElementResidual& residual) {
+  NodalGradients by_q;
+  const NodalMaps E = nodal_maps(reference, state);
+  sum_points(reference, data, state, load_factor, residual, by_q, E, [](int, const Interpolated&, const auto&) {});
+}
+
 void element_system(const ReferenceElement& reference, const ElementData& data, const ElementState& state,
                     double load_factor, ElementSystem& system) {
   const int size = 6 * reference.nodes() + 3 * reference.points();
-  system.residual.setZero(size);
   system.tangent.setZero(size, size);
-  NodalMaps E;
   NodalGradients by_q;
-  for (int i = 0; i < reference.nodes(); ++i) {
-    const auto node = static_cast<std::size_t>(i);
-    E[node] = by_rotation(state.rotation_BS[node]);
-    by_q[node].setZero();
-  }
-  for (int g = 0; g < reference.points(); ++g) {
-    const Interpolated at = interpolate(reference, data.length, state, g);
-    const PointTerms terms = point_terms(data, at, state.force_S[static_cast<std::size_t>(g)], load_factor);
-    add_residual(reference, data.length, g, terms, by_q, system);
-    add_tangent(reference, data.length, g, terms, data.force_compliance, E, system);
-  }
+  NodalHessians hessians;
+  set_zero(hessians, static_cast<std::size_t>(reference.nodes()));
+  const NodalMaps E = nodal_maps(reference, state);
+  const auto add_tangent = [&](int g, const Interpolated& at, const PointGradient& gradient) {
+    const PointHessian hessian(data, at.dr_B, at.p, at.dp, gradient, load_factor);
+    add_point_tangent(reference, data, g, gradient, hessian.by_dr_dr, E, system);
+    add_hessians(reference, data, g, hessian, hessians);
+  };
+  sum_points(reference, data, state, load_factor, system.residual, by_q, E, add_tangent);
+  add_nodal_tangent(hessians, reference.nodes(), E, system);
   for (int i = 0; i < reference.nodes(); ++i) {
     const auto node = static_cast<std::size_t>(i);
     const int t = rotation_of(i);
-    const Vector3d moment_S = E[node].transpose() * by_q[node];
-    system.residual.segment<3>(t) = moment_S;
+    const Vector3d moment_S = system.residual.segment<3>(t);
     // The map E_i turns with its own node: d(E_i^T g) = E_i^T dg + (dE_i)^T g.
     system.tangent.block<3, 3>(t, t) +=
         0.5 * skew(moment_S) - 0.25 * state.rotation_BS[node].dot(by_q[node]) * Matrix3d::Identity();
@@ -205,12 +232,13 @@ SectionState section_at(const ReferenceElement& reference, const ElementData& da
   return {at.r_B, rotation_matrix(at.p), at.strain()};
 }
 
-EndWrenches end_wrenches(const ReferenceElement& reference, const ElementState& state, const ElementSystem& system) {
+EndWrenches end_wrenches(const ReferenceElement& reference, const ElementState& state,
+                         const ElementResidual& residual) {
   const int last = reference.order();
-  return {system.residual.segment<3>(displacement_of(0)),
-          rotated(state.rotation_BS.front(), system.residual.segment<3>(rotation_of(0))),
-          system.residual.segment<3>(displacement_of(last)),
-          rotated(state.rotation_BS.back(), system.residual.segment<3>(rotation_of(last)))};
+  return {residual.segment<3>(displacement_of(0)),
+          rotated(state.rotation_BS.front(), residual.segment<3>(rotation_of(0))),
+          residual.segment<3>(displacement_of(last)),
+          rotated(state.rotation_BS.back(), residual.segment<3>(rotation_of(last)))};
 }
 
 NodalSystem nodal_system(const NodalLoad& load, const Quaternion& rotation_BS, double load_factor) {

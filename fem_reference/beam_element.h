@@ -23,9 +23,11 @@ namespace fem_reference {
 
 constexpr int max_unknowns = 6 * max_nodes + 3 * max_points;
 
+using ElementResidual = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, max_unknowns, 1>;
+
 struct ElementSystem {
-  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, max_unknowns, 1> residual;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, max_unknowns, max_unknowns> tangent;
+  ElementResidual residual;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, max_unknowns, max_unknowns> tangent;
 };
 
 // Nodal values of one element, first node to last.
@@ -38,7 +40,11 @@ struct ElementState {
 // Element e's part of the rod's state, which must outlive it.
 ElementState state_of_element(const BeamModel& model, const BeamState& state, std::size_t e);
 
-// Internal minus external force of an element under load_factor times its loads, and its derivative by the unknowns.
+// Internal minus external force of an element under load_factor times its loads.
+void element_residual(const ReferenceElement& reference, const ElementData& data, const ElementState& state,
+                      double load_factor, ElementResidual& residual);
+
+// The same and its derivative by the unknowns.
 void element_system(const ReferenceElement& reference, const ElementData& data, const ElementState& state,
                     double load_factor, ElementSystem& system);
 
@@ -62,7 +68,7 @@ struct EndWrenches {
   Eigen::Vector3d start_force_B, start_moment_B;
   Eigen::Vector3d end_force_B, end_moment_B;
 };
-EndWrenches end_wrenches(const ReferenceElement& reference, const ElementState& state, const ElementSystem& system);
+EndWrenches end_wrenches(const ReferenceElement& reference, const ElementState& state, const ElementResidual& residual);
 
 // What a point load adds to the residual of its node (force; moment in the section frame) and to the tangent.
 struct NodalSystem {

@@ -1,22 +1,12 @@
 #include "fem_reference/beam_system.h"
 
-#include "fem_reference/beam_element.h"
+#include "fem_reference/condensed_rod.h"
+#include "fem_reference/stability.h"
 
-#include <deal.II/base/multithread_info.h>
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
-#include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_dgq.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/grid/tria.h>
-#include <deal.II/lac/affine_constraints.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/sparse_direct.h>
-#include <deal.II/lac/sparse_matrix.h>
-#include <deal.II/lac/vector.h>
-
-#include <Eigen/SparseLU>
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +14,6 @@
 namespace fem_reference {
 
 namespace {
-
-using Index = dealii::types::global_dof_index;
 
 // The rod is a line in arc length, with a vertex at each element's end.
 void make_line(const BeamModel& model, dealii::Triangulation<1>& line) {
@@ -40,23 +28,29 @@ void make_line(const BeamModel& model, dealii::Triangulation<1>& line) {
   line.create_triangulation(vertices, cells, dealii::SubCellData());
 }
 
-dealii::FESystem<1> finite_element(const ReferenceElement& reference) {
-  const dealii::FE_Q<1> nodal(static_cast<unsigned int>(reference.order()));
-  const dealii::FE_DGQArbitraryNodes<1> at_points(dealii::QGauss<1>(static_cast<unsigned int>(reference.points())));
-  return dealii::FESystem<1>(nodal, 6, at_points, 3);
+// For the ends of the elements the number of the first of their unknowns; deal.II numbers from the clamp on, whose
+// unknowns, which are zero, are made to lie below zero.
+std::vector<int> vertex_unknowns(const dealii::Triangulation<1>& line, int unknowns) {
+  dealii::DoFHandler<1> dofs(line);
+  dofs.distribute_dofs(dealii::FESystem<1>(dealii::FE_Q<1>(1), static_cast<unsigned int>(unknowns)));
+  std::vector<int> first{-unknowns};
+  for (const auto& cell : dofs.active_cell_iterators()) {
+    first.push_back(static_cast<int>(cell->vertex_dof_index(1, 0)) - unknowns);
+  }
+  return first;
 }
 
-// For each unknown of deal.II's element its place in the order of beam_element.h.
-std::vector<int> places(const dealii::FESystem<1>& fe, const ReferenceElement& reference) {
-  std::vector<int> place(fe.dofs_per_cell);
-  for (unsigned int k = 0; k < fe.dofs_per_cell; ++k) {
-    const auto [component, function] = fe.system_to_component_index(k);
-    const int c = static_cast<int>(component), f = static_cast<int>(function);
-    // FE_Q numbers the two ends first, then the inner nodes along the element.
-    const int node = f == 0 ? 0 : f == 1 ? reference.order() : f - 1;
-    place[k] = c < 6 ? 6 * node + c : 6 * reference.nodes() + 3 * f + (c - 6);
+Motions motions_in_plane(scene::Symmetry symmetry) {
+  if (symmetry == scene::Symmetry::plane_xy) return {{0, 1}, {2}};
+  if (symmetry == scene::Symmetry::plane_xz) return {{0, 2}, {1}};
+  return {};
+}
+
+// Not std::max, which would drop a NaN.
+void enlarge(double& largest, const auto& values) {
+  for (const double value : values) {
+    if (!(std::abs(value) <= largest) && !std::isnan(largest)) largest = std::abs(value);
   }
-  return place;
 }
 
 }  // namespace
@@ -64,135 +58,55 @@ std::vector<int> places(const dealii::FESystem<1>& fe, const ReferenceElement& r
 struct BeamSystem::Implementation {
   explicit Implementation(const BeamModel& beam);
 
-  void number_unknowns();
-  void number_watched();
-  void make_matrix();
-  void add_element(std::size_t e, const BeamState& state, double load_factor);
-  void add_loads(const BeamState& state, double load_factor);
-  Residual measure() const;
-  Eigen::Vector3d values(const std::vector<Index>& numbers, std::size_t first) const;
+  CondensedRod rod(const Motions& motions) const { return {model, motions, vertex_unknowns(line, motions.size())}; }
+  bool factorise();
+  template <typename OfElement>
+  Residual sum(const BeamState& state, double load_factor, const OfElement& residual_of);
 
   const BeamModel& model;
   dealii::Triangulation<1> line;
-  dealii::FESystem<1> fe;
-  dealii::DoFHandler<1> dofs;
-  dealii::AffineConstraints<double> clamp;
-  dealii::SparsityPattern pattern;
-  dealii::SparseMatrix<double> tangent;
-  dealii::SparseDirectUMFPACK factors;
-  std::vector<int> watched;  // place of each unknown among those of the determinant, or -1
-  std::vector<Eigen::Triplet<double>> entries;
-  Eigen::SparseMatrix<double> watched_tangent;
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> determinant_factors;
-  dealii::Vector<double> residual, solution;
-
-  std::vector<std::vector<Index>> element_unknowns;  // in the order of beam_element.h
-  std::vector<Index> node_unknowns;                  // 6 a node
-  std::vector<Index> force_unknowns;                 // 3 a Gauss point
-
-  ElementSystem element;
-  dealii::FullMatrix<double> element_matrix;
+  std::vector<ElementSystem> elements;
+  std::vector<NodalSystem> loads;
+  std::vector<Eigen::Matrix<double, 6, 1>> node_residuals;
+  std::optional<CondensedRod> whole, in_plane;
+  bool is_factorised = false;  // `whole` holds the system assembled last
 };
 
-BeamSystem::Implementation::Implementation(const BeamModel& beam)
-    : model(beam), fe(finite_element(beam.reference)), dofs(line) {
-  // One beam is too small to share between threads, and timings are to be those of one core.
-  dealii::MultithreadInfo::set_thread_limit(1);
+BeamSystem::Implementation::Implementation(const BeamModel& beam) : model(beam), elements(beam.elements.size()) {
   make_line(model, line);
-  dofs.distribute_dofs(fe);
-  number_unknowns();
-  for (std::size_t i = 0; i < 6; ++i) clamp.add_line(node_unknowns[i]);
-  clamp.close();
-  make_matrix();
+  whole.emplace(rod({}));
 }
 
-void BeamSystem::Implementation::number_unknowns() {
-  const std::vector<int> place = places(fe, model.reference);
-  const auto points = static_cast<std::size_t>(model.reference.points());
-  const std::size_t nodal = 6 * static_cast<std::size_t>(model.reference.nodes());
-  std::vector<Index> of_cell(fe.dofs_per_cell);
-  node_unknowns.resize(6 * static_cast<std::size_t>(model.nodes()));
-  force_unknowns.resize(3 * points * model.elements.size());
-  for (const auto& cell : dofs.active_cell_iterators()) {
-    cell->get_dof_indices(of_cell);
-    std::vector<Index> ordered(of_cell.size());
-    for (std::size_t k = 0; k < of_cell.size(); ++k) ordered[static_cast<std::size_t>(place[k])] = of_cell[k];
-    const std::size_t e = cell->active_cell_index();
-    const std::size_t first_node = e * static_cast<std::size_t>(model.reference.order());
-    std::copy_n(ordered.begin(), nodal, node_unknowns.begin() + static_cast<std::ptrdiff_t>(6 * first_node));
-    std::copy(ordered.begin() + static_cast<std::ptrdiff_t>(nodal), ordered.end(),
-              force_unknowns.begin() + static_cast<std::ptrdiff_t>(3 * points * e));
-    element_unknowns.push_back(std::move(ordered));
+bool BeamSystem::Implementation::factorise() {
+  if (!is_factorised) is_factorised = whole->factorise(elements, loads);
+  return is_factorised;
+}
+
+// The residual of all nodes and points, from that of the elements.
+template <typename OfElement>
+Residual BeamSystem::Implementation::sum(const BeamState& state, double load_factor, const OfElement& residual_of) {
+  const int nodes = model.reference.nodes();
+  Residual result;
+  node_residuals.assign(static_cast<std::size_t>(model.nodes()), Eigen::Matrix<double, 6, 1>::Zero());
+  for (std::size_t e = 0; e < model.elements.size(); ++e) {
+    const ElementResidual& residual = residual_of(e);
+    const std::size_t first = e * static_cast<std::size_t>(nodes - 1);
+    for (int i = 0; i < nodes; ++i) {
+      node_residuals[first + static_cast<std::size_t>(i)] += residual.segment<6>(6 * i);
+    }
+    enlarge(result.largest_gap, residual.tail(3 * model.reference.points()));
   }
-}
-
-// All unknowns that are not clamped, but for displacements and forces normal to the plane of symmetry and turns in it.
-void BeamSystem::Implementation::number_watched() {
-  const int normal = model.symmetry == scene::Symmetry::plane_xy   ? 2
-                     : model.symmetry == scene::Symmetry::plane_xz ? 1
-                                                                   : -1;
-  watched.assign(dofs.n_dofs(), -1);
-  int count = 0;
-  const auto number = [&](Index unknown, std::size_t component, bool turn) {
-    const bool in_plane = normal < 0 || (static_cast<int>(component) == normal) == turn;
-    if (in_plane && !clamp.is_constrained(unknown)) watched[unknown] = count++;
-  };
-  for (std::size_t i = 0; i < node_unknowns.size(); ++i) number(node_unknowns[i], i % 3, i % 6 >= 3);
-  for (std::size_t i = 0; i < force_unknowns.size(); ++i) number(force_unknowns[i], i % 3, false);
-  watched_tangent.resize(count, count);
-}
-
-void BeamSystem::Implementation::make_matrix() {
-  dealii::DynamicSparsityPattern dynamic(dofs.n_dofs());
-  dealii::DoFTools::make_sparsity_pattern(dofs, dynamic, clamp, false);
-  pattern.copy_from(dynamic);
-  tangent.reinit(pattern);
-  residual.reinit(dofs.n_dofs());
-  solution.reinit(dofs.n_dofs());
-  element_matrix.reinit(fe.dofs_per_cell, fe.dofs_per_cell);
-}
-
-void BeamSystem::Implementation::add_element(std::size_t e, const BeamState& state, double load_factor) {
-  element_system(model.reference, model.elements[e], state_of_element(model, state, e), load_factor, element);
-
-  const std::vector<Index>& unknowns = element_unknowns[e];
-  for (unsigned int i = 0; i < unknowns.size(); ++i) {
-    for (unsigned int j = 0; j < unknowns.size(); ++j) element_matrix(i, j) = element.tangent(i, j);
-    if (!clamp.is_constrained(unknowns[i])) residual[unknowns[i]] += element.residual[i];
-  }
-  clamp.distribute_local_to_global(element_matrix, unknowns, tangent);
-}
-
-void BeamSystem::Implementation::add_loads(const BeamState& state, double load_factor) {
-  // No load stands at the clamp, so none of these unknowns is constrained.
+  loads.clear();
   for (const NodalLoad& load : model.loads) {
     const auto node = static_cast<std::size_t>(load.node);
-    const NodalSystem system = nodal_system(load, state.rotation_BS[node], load_factor);
-    for (int i = 0; i < 6; ++i) {
-      const Index row = node_unknowns[6 * node + static_cast<std::size_t>(i)];
-      residual[row] += system.residual[i];
-      for (int j = 3; j < 6; ++j) {
-        tangent.add(row, node_unknowns[6 * node + static_cast<std::size_t>(j)], system.tangent(i, j));
-      }
-    }
+    loads.push_back(nodal_system(load, state.rotation_BS[node], load_factor));
+    node_residuals[node] += loads.back().residual;
   }
-}
-
-Residual BeamSystem::Implementation::measure() const {
-  Residual result;
-  for (std::size_t i = 0; i < node_unknowns.size(); ++i) {
-    double& largest = i % 6 < 3 ? result.largest_force : result.largest_moment;
-    // Not std::max, which would drop a NaN.
-    if (!(std::abs(residual[node_unknowns[i]]) <= largest)) largest = std::abs(residual[node_unknowns[i]]);
-  }
-  for (const Index i : force_unknowns) {
-    if (!(std::abs(residual[i]) <= result.largest_gap)) result.largest_gap = std::abs(residual[i]);
+  for (std::size_t i = 1; i < node_residuals.size(); ++i) {
+    enlarge(result.largest_force, node_residuals[i].head<3>());
+    enlarge(result.largest_moment, node_residuals[i].tail<3>());
   }
   return result;
-}
-
-Eigen::Vector3d BeamSystem::Implementation::values(const std::vector<Index>& numbers, std::size_t first) const {
-  return {solution[numbers[first]], solution[numbers[first + 1]], solution[numbers[first + 2]]};
 }
 
 double Residual::largest() const {
@@ -206,55 +120,45 @@ bool Residual::finite() const {
 BeamSystem::BeamSystem(const BeamModel& model) : implementation_(std::make_unique<Implementation>(model)) {}
 BeamSystem::~BeamSystem() = default;
 
+Residual BeamSystem::residual(const BeamState& state, double load_factor) {
+  Implementation& self = *implementation_;
+  ElementResidual residual;
+  return self.sum(state, load_factor, [&](std::size_t e) -> const ElementResidual& {
+    element_residual(self.model.reference, self.model.elements[e], state_of_element(self.model, state, e), load_factor,
+                     residual);
+    return residual;
+  });
+}
+
 Residual BeamSystem::assemble(const BeamState& state, double load_factor) {
   Implementation& self = *implementation_;
-  self.tangent = 0;
-  self.residual = 0;
-  for (std::size_t e = 0; e < self.model.elements.size(); ++e) self.add_element(e, state, load_factor);
-  self.add_loads(state, load_factor);
-  return self.measure();
+  self.is_factorised = false;
+  return self.sum(state, load_factor, [&](std::size_t e) -> const ElementResidual& {
+    element_system(self.model.reference, self.model.elements[e], state_of_element(self.model, state, e), load_factor,
+                   self.elements[e]);
+    return self.elements[e].residual;
+  });
 }
 
 bool BeamSystem::newton_increment(BeamIncrement& increment) {
   Implementation& self = *implementation_;
-  self.solution = self.residual;
-  self.solution *= -1;
-  try {
-    self.factors.factorize(self.tangent);
-    self.factors.solve(self.solution);
-  } catch (const dealii::SparseDirectUMFPACK::ExcUMFPACKError&) {
-    return false;
-  }
-  self.clamp.set_zero(self.solution);
-  const auto nodes = static_cast<std::size_t>(self.model.nodes());
-  increment.displacement_B.resize(nodes);
-  increment.rotation_S.resize(nodes);
-  for (std::size_t i = 0; i < nodes; ++i) {
-    increment.displacement_B[i] = self.values(self.node_unknowns, 6 * i);
-    increment.rotation_S[i] = self.values(self.node_unknowns, 6 * i + 3);
-  }
-  increment.force_S.resize(self.force_unknowns.size() / 3);
-  for (std::size_t i = 0; i < increment.force_S.size(); ++i) {
-    increment.force_S[i] = self.values(self.force_unknowns, 3 * i);
-  }
+  if (!self.factorise()) return false;
+  self.whole->increment(increment);
   return true;
 }
 
 std::optional<scene::Determinant> BeamSystem::determinant() {
   Implementation& self = *implementation_;
-  const bool first = self.watched.empty();
-  if (first) self.number_watched();
-  self.entries.clear();
-  for (const auto& entry : self.tangent) {
-    const int row = self.watched[entry.row()], column = self.watched[entry.column()];
-    if (row >= 0 && column >= 0) self.entries.emplace_back(row, column, entry.value());
-  }
-  self.watched_tangent.setFromTriplets(self.entries.begin(), self.entries.end());
-  if (first) self.determinant_factors.analyzePattern(self.watched_tangent);
-  self.determinant_factors.factorize(self.watched_tangent);
-  if (self.determinant_factors.info() != Eigen::Success) return std::nullopt;
-  return scene::Determinant{self.determinant_factors.logAbsDeterminant(),
-                            self.determinant_factors.signDeterminant() < 0};
+  const bool is_planar =
+      self.model.symmetry == scene::Symmetry::plane_xy || self.model.symmetry == scene::Symmetry::plane_xz;
+  if (!is_planar) return self.factorise() ? std::optional(self.whole->determinant()) : std::nullopt;
+  if (!self.in_plane) self.in_plane.emplace(self.rod(motions_in_plane(self.model.symmetry)));
+  return self.in_plane->factorise(self.elements, self.loads) ? std::optional(self.in_plane->determinant())
+                                                             : std::nullopt;
+}
+
+std::optional<bool> BeamSystem::is_stable() {
+  return fem_reference::is_stable(implementation_->model, implementation_->elements, implementation_->loads);
 }
 
 }  // namespace fem_reference

@@ -1,7 +1,6 @@
 #include "fem_reference/load_stepping.h"
 
 #include "fem_reference/beam_element.h"
-#include "fem_reference/stability.h"
 #include "fem_reference/tendon_pull.h"
 
 #include <algorithm>
@@ -55,22 +54,24 @@ struct Attempt {
   Residual residual;
 };
 
-// Newton's iteration at one load factor; `state` holds the predictor and then the result.
-Attempt iterate(BeamSystem& system, const BeamState& start, BeamState& state, double load_factor,
+// Newton's iteration at one load factor; `state` holds the predictor and then the result, whose tangent is assembled if
+// it is judged.
+Attempt iterate(BeamSystem& system, const BeamState& start, BeamState& state, double load_factor, bool is_judged,
                 const SteppingOptions& options) {
   Attempt attempt;
   BeamIncrement increment;
   // Not of the forces: where the rod hardly stretches or shears they follow from the strains with little accuracy, and
   // the residual bounds them.
-  double largest_increment = INFINITY;
+  double last_increment = 0, to_come = INFINITY;
   while (true) {
-    attempt.residual = system.assemble(state, load_factor);
+    const bool without_tangent = !is_judged && to_come <= options.tolerance;
+    attempt.residual = without_tangent ? system.residual(state, load_factor) : system.assemble(state, load_factor);
     attempt.rotation_rad = largest_rotation(start, state);
     if (!attempt.residual.finite() || !all_finite(state)) {
       attempt.outcome = Outcome::not_finite;
       return attempt;
     }
-    const bool converged = is_converged(largest_increment, attempt.residual, largest(state.force_S), options.tolerance);
+    const bool converged = is_converged(to_come, attempt.residual, largest(state.force_S), options.tolerance);
     // Before convergence the bound is wider: an iterate may overshoot and come back.
     if (attempt.rotation_rad > (converged ? 1.0 : 1.5) * options.largest_rotation_rad) {
       attempt.outcome = Outcome::turned_too_far;
@@ -80,13 +81,16 @@ Attempt iterate(BeamSystem& system, const BeamState& start, BeamState& state, do
       attempt.outcome = converged ? Outcome::converged : Outcome::stalled;
       return attempt;
     }
+    if (without_tangent) system.assemble(state, load_factor);
     if (!system.newton_increment(increment)) {
       attempt.outcome = Outcome::singular;
       return attempt;
     }
     ++attempt.iterations;
     advance(state, increment);
-    largest_increment = std::max(largest(increment.displacement_B), largest(increment.rotation_S));
+    const double this_increment = std::max(largest(increment.displacement_B), largest(increment.rotation_S));
+    to_come = next_increment(last_increment, this_increment);
+    last_increment = this_increment;
   }
 }
 
@@ -219,7 +223,7 @@ class Stepping {
     // Secant predictor: the last accepted step goes on.
     if (last_step_ > 0) advance(trial, last_increment_, step / last_step_);
     const BeamState guess = trial;
-    last_ = iterate(system_, state_, trial, target, options_);
+    last_ = iterate(system_, state_, trial, target, watches_determinant_ || model_.conservative, options_);
     result_.newton_iterations += last_.iterations;
     if (tendon_collapses(model_, state_, trial)) last_.outcome = Outcome::tendon_collapsed;
     if (last_.outcome != Outcome::converged) return false;
@@ -231,7 +235,7 @@ class Stepping {
       last_.outcome = Outcome::surprised;
       return false;
     }
-    if (!stays_on_branch(trial, target)) return false;
+    if (!stays_on_branch(target)) return false;
     if (step > 0) {
       ++result_.load_steps;
       last_increment_ = difference(state_, trial);
@@ -248,21 +252,21 @@ class Stepping {
     step_ = std::min(step_, 1 / std::max(load_size(model_), 1.0));
     for (const double load_factor : {0.0, 0.01 * step_}) {
       BeamState trial = state_;
-      last_ = iterate(system_, state_, trial, load_factor, options_);
+      last_ = iterate(system_, state_, trial, load_factor, true, options_);
       const std::optional<scene::Determinant> determinant = system_.determinant();
       if (last_.outcome == Outcome::converged && determinant) branch_.keep(load_factor, *determinant);
     }
   }
 
   // Judges the equilibrium assembled last, and remembers it if it is on the branch.
-  bool stays_on_branch(const BeamState& state, double load_factor) {
+  bool stays_on_branch(double load_factor) {
     const std::optional<scene::Determinant> determinant =
         watches_determinant_ ? system_.determinant() : std::optional<scene::Determinant>(scene::Determinant{});
     if (!determinant || branch_.has_left(*determinant)) {
       last_.outcome = determinant ? Outcome::left_branch : Outcome::singular;
       return false;
     }
-    const std::optional<bool> stable = model_.conservative ? is_stable(model_, state, load_factor) : std::nullopt;
+    const std::optional<bool> stable = model_.conservative ? system_.is_stable() : std::nullopt;
     const bool may_fall =
         model_.symmetry != scene::Symmetry::none && load_factor - load_factor_ <= options_.smallest_bifurcation_step;
     if (stable == false && result_.stable != false && !may_fall) {
@@ -304,6 +308,10 @@ class Stepping {
 };
 
 }  // namespace
+
+double next_increment(double last, double now) {
+  return now < last ? now * (now / last) : now;
+}
 
 bool is_converged(double largest_increment, const Residual& residual, double largest_force, double tolerance) {
   return largest_increment <= tolerance && residual.largest() <= tolerance * std::max(1.0, largest_force);

@@ -29,8 +29,12 @@ struct SteppingResult {
   int newton_iterations = 0;   // all, those of rejected steps included
 };
 
-// Newton's iteration ends: largest increment of a node (displacement over L, rotation in rad) <= tolerance and largest
-// residual <= tolerance F, with F = max(1, largest internal force) in EI / L^2.
+// The increment that Newton's iteration would add next, at most: it falls by more from one to the next than it did from
+// the last (0: there is none) to now, quadratically in the end.
+double next_increment(double last, double now);
+
+// Newton's iteration ends: largest increment of a node yet to come (displacement over L, rotation in rad) <= tolerance
+// and largest residual <= tolerance F, with F = max(1, largest internal force) in EI / L^2.
 bool is_converged(double largest_increment, const Residual& residual, double largest_force, double tolerance);
 
 // From the rest shape to the full load, along the path of equilibria.

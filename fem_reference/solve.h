@@ -26,7 +26,7 @@ struct Options {
   int max_load_steps = 100'000;       // accepted and rejected
   int max_newton_iterations = 15;     // in a load step
   double largest_rotation_rad = 0.6;  // of any node in a load step: keeps to the branch that starts at no load
-  double tolerance = 1e-10;           // on Newton increments (lengths over L, rad) and residuals; load_stepping.h
+  double tolerance = 1e-10;           // on Newton increments to come (lengths over L, rad), residuals; load_stepping.h
 };
 
 // The equilibrium that the rod reaches when its loads (tendons included) grow together from zero; beside a buckling

@@ -10,19 +10,18 @@
 // - What is left acts on the rotations, as do the lever arms of point loads: 3x3 blocks along the rod, positive
 //   definite exactly at a minimum.
 // Under tendons alone, or no loads, the energy is convex in the strains and nothing needs to be eliminated.
-//
-// Cost: an assembly, without the factorisation of the whole.
 #pragma once
 
-#include "fem_reference/beam_model.h"
+#include "fem_reference/beam_element.h"
 
 #include <optional>
 
 namespace fem_reference {
 
 // True: minimum, stable. False: the energy falls in some direction. Empty: neutral within round-off, which is a load
-// within about 5e-15 (L / shortest element)^2 of critical. `state` must be an equilibrium of a conservative model under
-// load_factor times its loads.
-std::optional<bool> is_stable(const BeamModel& model, const BeamState& state, double load_factor);
+// within about 5e-15 (L / shortest element)^2 of critical. The systems must be those of the model's elements and loads,
+// all conservative, in an equilibrium.
+std::optional<bool> is_stable(const BeamModel& model, const std::vector<ElementSystem>& elements,
+                              const std::vector<NodalSystem>& loads);
 
 }  // namespace fem_reference

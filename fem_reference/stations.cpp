@@ -61,9 +61,9 @@ class ElementStations {
         data_(beam.model.elements[stretch.element]),
         state_(state_of_element(beam.model, beam.state, stretch.element)),
         stretch_(stretch) {
-    ElementSystem system;
-    element_system(model_.reference, data_, state_, 1, system);
-    ends_ = end_wrenches(model_.reference, state_, system);
+    ElementResidual residual;
+    element_residual(model_.reference, data_, state_, 1, residual);
+    ends_ = end_wrenches(model_.reference, state_, residual);
     end_ = section(1);
   }
 

@@ -46,6 +46,12 @@ TEST(FemStepping, NewtonEndsWithASmallIncrementAndASmallResidual) {
   EXPECT_FALSE(is_converged(0, residual(0, nan, 0), 0, tolerance));
 }
 
+TEST(FemStepping, TheNextIncrementFollowsFromTheLastTwo) {
+  EXPECT_EQ(next_increment(0, 1e-3), 1e-3);  // nothing to go by
+  EXPECT_DOUBLE_EQ(next_increment(1e-3, 1e-6), 1e-9);
+  EXPECT_EQ(next_increment(1e-6, 1e-3), 1e-3);  // it grows
+}
+
 // A coarse tolerance shows whether the result keeps it: the residual of the state that was handed out.
 TEST(FemStepping, TheResultKeepsTheTolerance) {
   const BeamModel model = model_of(uniform_rod(40, slender(1500, 1000), {scene::Force{40, Frame::fixed, {-3, 8, 6}}}));
