@@ -13,7 +13,7 @@
 namespace studies {
 namespace {
 
-std::string rounded(double value) {
+std::string scientific_text(double value) {
   return for_reader(scientific(value, 1));
 }
 
@@ -58,8 +58,8 @@ bool orders_hold(const FeVerification& data) {
 void set_locking(Page& page, const FeVerification& data) {
   const double full = fe_error(data, "thin", 1, true, fe_coarse), reduced = fe_error(data, "thin", 1, false, fe_coarse);
   page.check("locks", full > 20 * reduced && reduced > 0);
-  page.set("thin_full", rounded(full));
-  page.set("thin_reduced", rounded(reduced));
+  page.set("thin_full", scientific_text(full));
+  page.set("thin_reduced", scientific_text(reduced));
   page.set("coarse", std::to_string(fe_coarse));
 }
 
@@ -67,11 +67,11 @@ std::string page_of(const FeVerification& data, const OwnErrors& own, const std:
   Page page;
   page.set("scenes", std::to_string(own.scenes));
   page.set("solved", std::to_string(own.errors.size()));
-  page.set("median", rounded(quantile(own.errors, 0.5)));
-  page.set("largest", rounded(own.largest()));
-  page.set("largest_mm", rounded(quantile(own.errors_mm, 1)));
+  page.set("median", scientific_text(quantile(own.errors, 0.5)));
+  page.set("largest", scientific_text(own.largest()));
+  page.set("largest_mm", scientific_text(quantile(own.errors_mm, 1)));
   page.set("worst", own.worst);
-  page.set("kirchhoff_largest", rounded(quantile(own.kirchhoff, 1)));
+  page.set("kirchhoff_largest", scientific_text(quantile(own.kirchhoff, 1)));
   page.set("ratio_least", significant(quantile(own.estimate_over_error, 0), 2));
   page.set("ratio_median", significant(quantile(own.estimate_over_error, 0.5), 2));
   page.set("ratio_most", significant(quantile(own.estimate_over_error, 1), 2));
@@ -87,7 +87,7 @@ std::string page_of(const FeVerification& data, const OwnErrors& own, const std:
 std::string answer(const OwnErrors& own) {
   return fmt::format(
       "the 50 quadratic elements that stand in for Abaqus are at most {} L off the exact tip on {} of {} scenes",
-      rounded(own.largest()), own.errors.size(), own.scenes);
+      scientific_text(own.largest()), own.errors.size(), own.scenes);
 }
 
 }  // namespace
