@@ -26,6 +26,11 @@ std::string attributes(const Stroke& stroke) {
   return text;
 }
 
+const char* anchor_text(Anchor anchor) {
+  const char* anchors[] = {"start", "middle", "end"};
+  return anchors[static_cast<int>(anchor)];
+}
+
 std::string escaped(const std::string& text) {
   std::string safe;
   for (const char c : text) {
@@ -83,21 +88,20 @@ void Svg::rectangle(Point corner, double width, double height, const std::string
 
 void Svg::text(Point at, const std::string& text, Anchor anchor, double size, const std::string& colour,
                double rotation_deg) {
-  const char* anchors[] = {"start", "middle", "end"};
   std::string turn;
   if (rotation_deg != 0) {
     turn = fmt::format(" transform=\"rotate({} {} {})\"", number(rotation_deg), number(at.x), number(at.y));
   }
-  body_ +=
-      fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\" font-size=\"{}\" fill=\"{}\"{}>{}</text>\n", number(at.x),
-                  number(at.y), anchors[static_cast<int>(anchor)], size, colour, turn, escaped(text));
+  body_ += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\" font-size=\"{}\" fill=\"{}\"{}>{}</text>\n",
+                       number(at.x), number(at.y), anchor_text(anchor), size, colour, turn, escaped(text));
 }
 
-void Svg::name(Point at, const std::string& text, const std::string& colour) {
+void Svg::name(Point at, const std::string& text, const std::string& colour, Anchor anchor) {
+  const std::string anchored = anchor == Anchor::start ? "" : fmt::format(" text-anchor=\"{}\"", anchor_text(anchor));
   body_ += fmt::format(
-      "<text x=\"{}\" y=\"{}\" font-size=\"12\" fill=\"{}\" stroke=\"white\" stroke-width=\"3\" "
+      "<text x=\"{}\" y=\"{}\"{} font-size=\"12\" fill=\"{}\" stroke=\"white\" stroke-width=\"3\" "
       "paint-order=\"stroke\">{}</text>\n",
-      number(at.x), number(at.y), colour, escaped(text));
+      number(at.x), number(at.y), anchored, colour, escaped(text));
 }
 
 std::string Svg::str() const {

@@ -46,7 +46,7 @@ class Svg {
   void text(Point at, const std::string& text, Anchor anchor = Anchor::start, double size = 12,
             const std::string& colour = "#222", double rotation_deg = 0);
   // The same on a white halo, for names among curves.
-  void name(Point at, const std::string& text, const std::string& colour);
+  void name(Point at, const std::string& text, const std::string& colour, Anchor anchor = Anchor::start);
 
   double width() const { return width_; }
   double height() const { return height_; }
