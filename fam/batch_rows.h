@@ -18,6 +18,8 @@ class BatchRows {
 
   // These rows of the result, each from its row of values alone.
   void solve(Eigen::Index begin, Eigen::Index end);
+  // Of those, the rows that lanes did not solve.
+  std::span<const std::ptrdiff_t> left_to_solver() const { return left_; }
 
  private:
   // What rods must have in common to lie in lanes of one pack.
