@@ -23,6 +23,7 @@ namespace studies {
   row(work_precision, "Which method is fastest at my accuracy?", "5 min", false) \
   row(stability, "Where does each method fail?", "1 min", false) \
   row(stream, "How fast is a kept solver on a stream of loads?", "10 s", false) \
+  row(batch, "How many rods a second?", "1 min", false) \
   row(walks, "Does a kept solver stay on its branch?", "15 min", true) \
   row(random, "Is an answer ever wrong without saying so?", "30 min", true)
 // clang-format on
