@@ -36,6 +36,15 @@ void pushed_column(const Method& solve, std::vector<double> times_euler = {1.3, 
   }
 }
 
+// A strip beside its lateral buckling load: the exact reference and the finite elements (to 6e-5 mm of 100) on the
+// branch that grows from no load. Its mirrored branch, 8 mm off and stable too, is where large surprises lead.
+TEST(SurvivorsFam, StripBesideLateralBuckling) {
+  const Scene strip = studies::random_scene(201878);
+  const Vector3d exact_mm(70.62088, 63.79680, 4.35709);
+  EXPECT_LT((tip(by_fam(strip, 1e-3)) - exact_mm).norm(), 1e-3);
+  EXPECT_GT((tip(by_fam(support::stiffer(strip), 1e-3)) - exact_mm).norm(), 0.1);
+}
+
 TEST(SurvivorsFam, PushedColumn) {
   pushed_column([](const Scene& scene) { return by_fam(scene, 1e-6); });
 }
