@@ -18,7 +18,8 @@ struct Options {
   // Number of arcs, 1..max_arcs; 0: as many as the tolerance asks for. Each span between section changes and loads
   // gets at least one, whatever is asked for.
   int arcs = 0;
-  // Largest error wanted of any place along the rod, mm; 0: 1e-3 of its length. Used only where arcs = 0.
+  // Largest error wanted of any place along the rod, mm; 0: 1e-3 of its length. Where arcs are given it only tells a
+  // Solver where to end Newton's method.
   double tolerance_mm = 0;
 
   // With a fixed number of arcs the error estimate takes a second march of twice as many; false leaves it out (0).
