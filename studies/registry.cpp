@@ -12,18 +12,19 @@ namespace studies {
 
 // A row a study: folder and function (void f(const StudyOptions&), in studies/f/f.cpp), the question it answers, the
 // time it takes, whether it runs with --full only. In the order in which they run.
-#define STUDY_ROWS(row)                                                                                         \
-  row(study1, "How good is FAM beside finite elements on the paper's cases?", "20 s", false)                    \
-      row(fe_verification, "How sure are the finite elements that stand in for Abaqus?", "10 s", false)         \
-          row(benchmarks, "Do all methods give the numbers that others have published?", "40 s", false)         \
-              row(segmentation, "How many arcs shall I take?", "20 s", false)                                   \
-                  row(torsion, "What does torsion cost, in error and in time?", "10 s", false)                  \
-                      row(study2, "How good is FAM on a catheter?", "10 s", false)                              \
-                          row(work_precision, "Which method is fastest at my accuracy?", "5 min", false)        \
-                              row(stability, "Where does each method fail?", "1 min", false)                    \
-                                  row(stream, "How fast is a kept solver on a stream of loads?", "10 s", false) \
-                                      row(walks, "Does a kept solver stay on its branch?", "15 min", true)      \
-                                          row(random, "Is an answer ever wrong without saying so?", "30 min", true)
+#define STUDY_ROWS(row)                                                                                             \
+  row(study1, "How good is FAM beside finite elements on the paper's cases?", "20 s", false)                        \
+      row(fe_verification, "How sure are the finite elements that stand in for Abaqus?", "10 s", false)             \
+          row(benchmarks, "Do all methods give the numbers that others have published?", "40 s", false)             \
+              row(segmentation, "How many arcs shall I take?", "20 s", false)                                       \
+                  row(torsion, "What does torsion cost, in error and in time?", "10 s", false)                      \
+                      row(study2, "How good is FAM on a catheter?", "10 s", false)                                  \
+                          row(work_precision, "Which method is fastest at my accuracy?", "5 min", false)            \
+                              row(stability, "Where does each method fail?", "1 min", false)                        \
+                                  row(model_choice, "Which model does my scene need?", "3 min", false)              \
+                                      row(stream, "How fast is a kept solver on a stream of loads?", "10 s", false) \
+                                          row(walks, "Does a kept solver stay on its branch?", "15 min", true) row( \
+                                              random, "Is an answer ever wrong without saying so?", "30 min", true)
 
 #define DECLARE(function, question, time, full) void function(const StudyOptions&);
 STUDY_ROWS(DECLARE)
