@@ -61,6 +61,8 @@ struct ModelChoiceData {
   std::vector<const ChoiceScene*> of(const std::string& group) const;  // "": all
 };
 
+// The error over L as tables write it.
+std::string rung_error(const Rung& rung);
 // "1.3 (1 … 2)": median and quartiles; "–" of none.
 std::string median_and_quartiles(const std::vector<double>& values, int digits);
 

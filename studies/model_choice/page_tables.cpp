@@ -177,12 +177,12 @@ std::string robots_table(const ModelChoiceData& data, double tolerance) {
       if (c.tolerance != tolerance) continue;
       const auto error = [&](const std::string& what) {
         const Rung* rung = c.beside(what);
-        return rung == nullptr ? "" : std::isfinite(rung->error) ? scientific(rung->error, 1) : rung->status;
+        return rung == nullptr ? "" : std::isfinite(rung->error) ? rung_error(*rung) : rung->status;
       };
       const Rung* elements = scene->smallest_elements(tolerance);
       const std::string fewest =
           c.fewest_arcs == 0 ? "–" : fmt::format("{}, {}", c.shear_needed ? "shear" : "no shear", c.fewest_arcs);
-      table.add({scene->name, model_text(c.rung.model), scientific(c.rung.error, 1), fewest, error(neighbour::half),
+      table.add({scene->name, model_text(c.rung.model), rung_error(c.rung), fewest, error(neighbour::half),
                  error(neighbour::without_shear), elements == nullptr ? "–" : std::to_string(elements->model.count)});
     }
   }

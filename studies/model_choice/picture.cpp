@@ -41,8 +41,8 @@ void draw_key(Svg& svg) {
   };
   swatch(no_shear_fill, "without shear");
   swatch(with_shear_fill, "with shear and stretch");
-  svg.text({x, y + 12}, "left, black: smallest sufficient");
-  x += 24 + text_width("left, black: smallest sufficient", 12);
+  svg.text({x, y + 12}, "left, black: smallest sufficient, arcs by length");
+  x += 24 + text_width("left, black: smallest sufficient, arcs by length", 12);
   svg.text({x, y + 12}, "right, blue: fam solve", Anchor::start, 12, colour::blue);
   x += 24 + text_width("right, blue: fam solve", 12);
   svg.cross({x + 6, y + 8}, 4, {colour::orange, 1.6, ""});

@@ -151,7 +151,7 @@ RandomCounts count_choices(const std::vector<RandomChoice>& choices, const std::
     counts.shear_needed += c.shear && c.shear_needed;
     if (c.exact_error >= 0) {
       ++counts.sampled;
-      counts.sampled_insufficient += c.exact_error > c.tolerance;
+      counts.sampled_insufficient += !(c.exact_error <= c.tolerance);
       counts.disagreed += std::abs(c.exact_error - c.error) > sharp_enough * c.tolerance;
     }
     if (!c.arcs_looked_for) continue;

@@ -27,7 +27,7 @@ struct RandomChoice {
   bool fewer_by_another_law = false;  // of order four or two, with fewer arcs than these
 
   bool judged() const { return status == "converged" && judge != "none"; }
-  bool insufficient() const { return error > tolerance; }
+  bool insufficient() const { return !(error <= tolerance); }
   // Of those chosen in space: a plane holds no shape within the tolerance of the true one.
   bool space_needed() const { return off_plane > tolerance; }
   double arcs_ratio() const { return static_cast<double>(arcs) / fewest_arcs; }

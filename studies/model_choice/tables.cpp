@@ -14,11 +14,6 @@
 namespace studies {
 namespace {
 
-std::string rung_error(const Rung& rung) {
-  constexpr double floor = 1e-12;  // round-off
-  return std::isfinite(rung.error) ? scientific(std::max(rung.error, floor), 1) : "–";
-}
-
 std::vector<std::string> model_cells(const ModelSize& model) {
   return {model.finite_elements ? "finite elements" : "fam", model.dimension(), model.rod(), model.solver(),
           std::to_string(model.count)};
@@ -137,6 +132,11 @@ std::string chosen_times_csv(const ModelChoiceData& data) {
 }
 
 }  // namespace
+
+std::string rung_error(const Rung& rung) {
+  constexpr double floor = 1e-12;  // round-off
+  return std::isfinite(rung.error) ? scientific(std::max(rung.error, floor), 1) : "–";
+}
 
 std::map<std::string, std::string> model_choice_tables(const ModelChoiceData& data) {
   return {{"accuracy_ladder.csv", ladder_csv(data)},         {"accuracy_chosen.csv", chosen_csv(data)},
