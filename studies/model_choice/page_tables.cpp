@@ -35,12 +35,15 @@ std::string of_all(std::ptrdiff_t count, std::size_t all) {
   return fmt::format("{} of {}", count, all);
 }
 
+std::string share_there(std::size_t there, std::size_t all) {
+  return there == all || there == 0 ? "" : fmt::format(" [{}/{}]", there, all);
+}
+
 // "3 (1 … 8)": median, least and largest; those that are there of all where these are not all.
 std::string median_and_range(std::vector<double> values, std::size_t all) {
   if (values.empty()) return "–";
   const auto [least, largest] = std::minmax_element(values.begin(), values.end());
-  const std::string share = values.size() == all ? "" : fmt::format(" [{}/{}]", values.size(), all);
-  return fmt::format("{:g} ({:g} … {:g}){}", quantile(values, 0.5), *least, *largest, share);
+  return fmt::format("{:g} ({:g} … {:g}){}", quantile(values, 0.5), *least, *largest, share_there(values.size(), all));
 }
 
 template <class Value>
@@ -70,7 +73,7 @@ CellOf times_of(Value value) {
     for (const auto& [scene, choice] : choices) {
       if (const double v = value(*scene, *choice); v > 0) values.push_back(v);
     }
-    return median_and_quartiles(values, 3);
+    return median_and_quartiles(values, 3) + share_there(values.size(), choices.size());
   };
 }
 
