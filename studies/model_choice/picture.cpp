@@ -41,8 +41,8 @@ void draw_key(Svg& svg) {
   };
   swatch(no_shear_fill, "without shear");
   swatch(with_shear_fill, "with shear and stretch");
-  svg.text({x, y + 12}, "left, black: smallest sufficient, arcs by length");
-  x += 24 + text_width("left, black: smallest sufficient, arcs by length", 12);
+  svg.text({x, y + 12}, "left, black: smallest sufficient");
+  x += 24 + text_width("left, black: smallest sufficient", 12);
   svg.text({x, y + 12}, "right, blue: fam solve", Anchor::start, 12, colour::blue);
   x += 24 + text_width("right, blue: fam solve", 12);
   svg.cross({x + 6, y + 8}, 4, {colour::orange, 1.6, ""});
@@ -61,7 +61,8 @@ std::string model_choice_picture(const ModelChoiceData& data) {
       "A table of numbers: a row a scene, a column an error from 1e-2 to 1e-8 of the rod's length. In each cell the "
       "fewest arcs that are within it, on the left, and the number that fam solve takes when asked for it, on the "
       "right; a tinted half has shear and stretch, a pale one has not. Look at how little the two differ.",
-      "a column an accuracy: largest error of any place along the rod, over its length L; numbers: arcs");
+      "a column an accuracy: largest error of any place along the rod, over its length L; numbers: arcs, the smallest "
+      "shared out by length");
   draw_key(svg);
   double y = first_row - group_gap + 8;
   for (const std::string& group : groups) {
