@@ -36,13 +36,15 @@ void pushed_column(const Method& solve, std::vector<double> times_euler = {1.3, 
   }
 }
 
-// A strip beside its lateral buckling load: the exact reference and the finite elements (to 6e-5 mm of 100) on the
-// branch that grows from no load. Its mirrored branch, 8 mm off and stable too, is where large surprises lead.
-TEST(SurvivorsFam, StripBesideLateralBuckling) {
-  const Scene strip = studies::random_scene(201878);
-  const Vector3d exact_mm(70.62088, 63.79680, 4.35709);
-  EXPECT_LT((tip(by_fam(strip, 1e-3)) - exact_mm).norm(), 1e-3);
-  EXPECT_GT((tip(by_fam(support::stiffer(strip), 1e-3)) - exact_mm).norm(), 0.1);
+// Strips beside their lateral buckling loads, 100 mm long: the exact reference, and the finite elements to 1.5e-4 mm,
+// on the branch that grows from no load. Its mirrored branch, stable too, is where larger surprises lead.
+TEST(SurvivorsFam, StripsBesideLateralBuckling) {
+  for (const auto& [seed, exact_mm] : {std::pair(201878u, Vector3d(70.62088, 63.79680, 4.35709)),
+                                       std::pair(247970u, Vector3d(86.36205, 2.32958, 45.25790))}) {
+    const Scene strip = studies::random_scene(seed);
+    EXPECT_LT((tip(by_fam(strip, 1e-3)) - exact_mm).norm(), 1e-3) << seed;
+    EXPECT_GT((tip(by_fam(support::stiffer(strip), 1e-3)) - exact_mm).norm(), 0.1) << seed;
+  }
 }
 
 TEST(SurvivorsFam, PushedColumn) {
