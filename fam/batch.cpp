@@ -16,7 +16,6 @@ namespace {
 
 using scene::Load;
 using scene::SceneError;
-using scene::Status;
 
 std::string text(double value) {
   char buffer[32];
@@ -53,25 +52,19 @@ void check(const std::vector<Load>& loads, std::span<const BatchColumn> columns,
     refuse("values", std::to_string(values.cols()) + " columns",
            "must have " + std::to_string(columns.size()) + ", one for each of columns");
   }
+  constexpr double most = std::numeric_limits<double>::max();
+  Eigen::RowVectorXd least = Eigen::RowVectorXd::Constant(values.cols(), -most);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (scene::tendon_of(loads[columns[i].load])) least[static_cast<Eigen::Index>(i)] = 0;
+  }
   for (Eigen::Index row = 0; row < values.rows(); ++row) {
     for (Eigen::Index column = 0; column < values.cols(); ++column) {
       const double value = values(row, column);
-      const bool tension = scene::tendon_of(loads[columns[static_cast<std::size_t>(column)].load]) != nullptr;
-      if (std::isfinite(value) && (value >= 0 || !tension)) continue;
+      if (value >= least[column] && value <= most) continue;  // NaN is neither
       refuse("values[" + std::to_string(row) + "][" + std::to_string(column) + "]", text(value),
-             tension ? "must be >= 0" : "must be finite");
+             least[column] == 0 ? "must be >= 0" : "must be finite");
     }
   }
-}
-
-BatchResult all_failed(Eigen::Index rows, Status status) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  BatchResult result;
-  result.position_mm.setConstant(rows, 3, nan);
-  result.rotation_wxyz.setConstant(rows, 4, nan);
-  result.status.assign(static_cast<std::size_t>(rows), status);
-  result.error_estimate_mm.setConstant(rows, nan);
-  return result;
 }
 
 // Rows that a thread takes at a time.
@@ -85,7 +78,11 @@ BatchResult solve_batch(const scene::Scene& scene, std::span<const BatchColumn> 
   std::vector<Load> loads = scene.loads;
   check(loads, columns);
   check(loads, columns, values);
-  BatchResult result = all_failed(values.rows(), Status::not_converged);
+  BatchResult result;
+  result.position_mm.resize(values.rows(), 3);
+  result.rotation_wxyz.resize(values.rows(), 4);
+  result.error_estimate_mm.resize(values.rows());
+  result.status.resize(static_cast<std::size_t>(values.rows()));
   std::atomic<Eigen::Index> next{0};
   const auto work = [&] {
     BatchRows rows(scene, columns, values, options, result);

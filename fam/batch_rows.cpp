@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include <limits>
 #include <numeric>
 
 namespace fam {
@@ -42,6 +43,10 @@ BatchRows::BatchRows(const scene::Scene& scene, std::span<const BatchColumn> col
 }
 
 void BatchRows::solve(Eigen::Index begin, Eigen::Index end) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  result_.position_mm.middleRows(begin, end - begin).setConstant(nan);
+  result_.rotation_wxyz.middleRows(begin, end - begin).setConstant(nan);
+  result_.error_estimate_mm.segment(begin, end - begin).setConstant(nan);
   first_row_ = begin;
   tips_.resize(static_cast<std::size_t>(end - begin));
   left_.clear();
