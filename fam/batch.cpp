@@ -78,11 +78,7 @@ BatchResult solve_batch(const scene::Scene& scene, std::span<const BatchColumn> 
   std::vector<Load> loads = scene.loads;
   check(loads, columns);
   check(loads, columns, values);
-  BatchResult result;
-  result.position_mm.resize(values.rows(), 3);
-  result.rotation_wxyz.resize(values.rows(), 4);
-  result.error_estimate_mm.resize(values.rows());
-  result.status.resize(static_cast<std::size_t>(values.rows()));
+  BatchResult result = room_for(values.rows());
   std::atomic<Eigen::Index> next{0};
   const auto work = [&] {
     BatchRows rows(scene, columns, values, options, result);

@@ -10,21 +10,26 @@
 #include <numeric>
 
 namespace fam {
-namespace {
 
-using scene::Load;
 using scene::Status;
 
-void set(Solver& solver, std::size_t index, const Load& load) {
+BatchResult room_for(Eigen::Index rods) {
+  BatchResult result;
+  result.position_mm.resize(rods, 3);
+  result.rotation_wxyz.resize(rods, 4);
+  result.error_estimate_mm.resize(rods);
+  result.status.resize(static_cast<std::size_t>(rods));
+  return result;
+}
+
+void set_value(Solver& solver, std::size_t index, const scene::Load& value) {
   scene::visit_load(
-      load, [&](const scene::Force& force) { solver.set_force_N(index, force.value_N); },
+      value, [&](const scene::Force& force) { solver.set_force_N(index, force.value_N); },
       [&](const scene::Moment& moment) { solver.set_moment_Nmm(index, moment.value_Nmm); },
       [&](const scene::DistributedForce& force) { solver.set_distributed_N_per_mm(index, force.value_N_per_mm); },
       [&](const scene::Gravity& gravity) { solver.set_acceleration_m_per_s2(index, gravity.acceleration_m_per_s2); },
       [&](const scene::Tendon& tendon) { solver.set_tension_N(index, tendon.tension_N); });
 }
-
-}  // namespace
 
 BatchRows::BatchRows(const scene::Scene& scene, std::span<const BatchColumn> columns,
                      const Eigen::Ref<const RowMajorMatrix>& values, const Options& options, BatchResult& result,
@@ -123,7 +128,7 @@ void BatchRows::solve_one_by_one(std::ptrdiff_t row) {
   }
   auto& solver = std::get<Solver>(*solver_);
   set_values(row);
-  for (const std::size_t index : changing_) set(solver, index, row_scene_.loads[index]);
+  for (const std::size_t index : changing_) set_value(solver, index, row_scene_.loads[index]);
   status = solver.solve(Solver::Start::unloaded).status;
   if (status != Status::converged) return;
   keep(row, solver.tip().position_B_mm, Eigen::Quaterniond(solver.tip().rotation_BS),

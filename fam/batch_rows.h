@@ -9,6 +9,11 @@
 
 namespace fam {
 
+// For so many rods; the numbers are not set.
+BatchResult room_for(Eigen::Index rods);
+// New values for a load of the solver's, of the same kind.
+void set_value(Solver& solver, std::size_t load, const scene::Load& value);
+
 class BatchRows {
  public:
   // Keeps views of all.

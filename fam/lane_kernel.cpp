@@ -65,6 +65,7 @@ class Rods {
       if (!rods_.march) solved &= newton(tip, inverse, 2, solved);
       place(tip, finer_, 2);
       error_mm = estimate_mm();
+      solved &= error_mm < P(std::numeric_limits<double>::infinity());
     }
     solved &= P(0) < shortest_tendon_;
     const double limit = rods_.largest_swing_rad * rods_.largest_swing_rad;

@@ -79,11 +79,7 @@ int solved_in_lanes(const LaneUnit& unit, const scene::Scene& scene, const Rods&
 fam::BatchResult solved_by(const LaneUnit& unit, const scene::Scene& scene, const Rods& rods,
                            const fam::Options& options) {
   const Eigen::Index n = rods.values.rows();
-  fam::BatchResult result;
-  result.position_mm.setConstant(n, 3, std::nan(""));
-  result.rotation_wxyz.setConstant(n, 4, std::nan(""));
-  result.error_estimate_mm.setConstant(n, std::nan(""));
-  result.status.assign(static_cast<std::size_t>(n), Status::not_converged);
+  fam::BatchResult result = fam::room_for(n);
   const Eigen::Ref<const RowMajorMatrix> values = rods.values;
   fam::BatchRows(scene, rods.columns, values, options, result, unit).solve(0, n);
   return result;

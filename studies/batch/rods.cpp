@@ -1,6 +1,6 @@
 #include "studies/batch/rods.h"
 
-#include "fam/solver.h"
+#include "fam/batch_rows.h"
 #include "scene/load_visitor.h"
 #include "studies/report/svg.h"
 
@@ -11,26 +11,8 @@
 namespace studies {
 namespace {
 
-void set_load(fam::Solver& solver, std::size_t index, const scene::Load& load) {
-  scene::visit_load(
-      load, [&](const scene::Force& force) { solver.set_force_N(index, force.value_N); },
-      [&](const scene::Moment& moment) { solver.set_moment_Nmm(index, moment.value_Nmm); },
-      [&](const scene::DistributedForce& force) { solver.set_distributed_N_per_mm(index, force.value_N_per_mm); },
-      [&](const scene::Gravity& gravity) { solver.set_acceleration_m_per_s2(index, gravity.acceleration_m_per_s2); },
-      [&](const scene::Tendon& tendon) { solver.set_tension_N(index, tendon.tension_N); });
-}
-
 double& number_of(scene::Scene& scene, const fam::BatchColumn& column) {
   return scene::numbers_of(scene.loads[column.load])[static_cast<std::size_t>(column.component)];
-}
-
-fam::BatchResult no_result(Eigen::Index rows) {
-  fam::BatchResult result;
-  result.position_mm.setConstant(rows, 3, NAN);
-  result.rotation_wxyz.setConstant(rows, 4, NAN);
-  result.error_estimate_mm.setConstant(rows, NAN);
-  result.status.assign(static_cast<std::size_t>(rows), scene::Status::not_converged);
-  return result;
 }
 
 }  // namespace
@@ -89,7 +71,7 @@ fam::Options batch_options(const BatchCase& rods, int arcs, bool estimate) {
 UnitOutcome solve_on_unit(const fam::LaneUnit& unit, const scene::Scene& scene, const BatchCase& rods,
                           const BatchValues& values, const fam::Options& options) {
   constexpr Eigen::Index block = 512;  // as fam::solve_batch
-  UnitOutcome outcome{no_result(values.rows()), values.rows()};
+  UnitOutcome outcome{fam::room_for(values.rows()), values.rows()};
   fam::BatchRows rows(scene, rods.columns, values, options, outcome.result, unit);
   for (Eigen::Index begin = 0; begin < values.rows(); begin += block) {
     rows.solve(begin, std::min(begin + block, values.rows()));
@@ -100,14 +82,14 @@ UnitOutcome solve_on_unit(const fam::LaneUnit& unit, const scene::Scene& scene, 
 
 fam::BatchResult solve_one_by_one(const scene::Scene& scene, const BatchCase& rods, const BatchValues& values,
                                   const fam::Options& options) {
-  fam::BatchResult result = no_result(values.rows());
+  fam::BatchResult result = fam::room_for(values.rows());
   auto solver = std::get<fam::Solver>(fam::Solver::make(scene, options));
   scene::Scene with_values = scene;
   for (Eigen::Index row = 0; row < values.rows(); ++row) {
     set_row(with_values, rods, values, row);
     for (std::size_t k = 0; k < rods.columns.size(); ++k) {
       const std::size_t load = rods.columns[k].load;
-      if (k == 0 || rods.columns[k - 1].load != load) set_load(solver, load, with_values.loads[load]);
+      if (k == 0 || rods.columns[k - 1].load != load) fam::set_value(solver, load, with_values.loads[load]);
     }
     scene::Status& status = result.status[static_cast<std::size_t>(row)];
     status = solver.solve(fam::Solver::Start::unloaded).status;
