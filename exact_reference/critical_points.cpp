@@ -1,0 +1,156 @@
+#include "exact_reference/critical_points.h"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+namespace exact_reference {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Kind = scene::PathPoint::Kind;
+
+// Chosen, not measured: the polynomial's error falls as the sixth power, and round-off rises as the inverse.
+constexpr double widest_stencil = 0.02;
+constexpr double closest_events = 1e-5;  // nearer ones count as one double point
+
+struct Placed {
+  double s = 0;
+  Solution at;
+};
+
+struct Events {
+  bool fold = false, branch = false;
+  bool turned_in_plane = false;     // without the determinant of all motions
+  std::optional<int> index_change;  // size of
+
+  int count() const { return std::max<int>(fold + branch, index_change.value_or(turned_in_plane ? 2 : 0)); }
+  bool is_simple() const { return fold + branch == 1 && index_change.value_or(1) == 1; }
+  bool may_be_double() const { return !fold && !branch && index_change.value_or(turned_in_plane ? 2 : 0) == 2; }
+};
+
+Events events_between(const Solution& a, const Solution& b) {
+  Events events;
+  events.fold = (a.slope() < 0) != (b.slope() < 0);
+  events.branch = a.negative != b.negative;
+  if (a.index && b.index) events.index_change = std::abs(*a.index - *b.index);
+  const bool straight = a.negative_in_xy && b.negative_in_xy;
+  events.turned_in_plane = straight && !events.branch && *a.negative_in_xy != *b.negative_in_xy;
+  return events;
+}
+
+// The polynomial through samples, by Lagrange's formula.
+template <class Value>
+Value through(const std::vector<double>& s, const std::vector<Value>& values, double at) {
+  Value sum = 0 * values[0];
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    double weight = 1;
+    for (std::size_t j = 0; j < s.size(); ++j) {
+      if (j != i) weight *= (at - s[j]) / (s[i] - s[j]);
+    }
+    sum += weight * values[i];
+  }
+  return sum;
+}
+
+// Empty: the ends have the same sign.
+std::optional<double> zero_through(const std::vector<double>& s, const std::vector<double>& values, double a,
+                                   double b) {
+  const bool start = through(s, values, a) < 0;
+  if (start == (through(s, values, b) < 0)) return std::nullopt;
+  constexpr int halvings = 60;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (a + b) / 2;
+    ((through(s, values, middle) < 0) == start ? a : b) = middle;
+  }
+  return (a + b) / 2;
+}
+
+class Search {
+ public:
+  explicit Search(Continuation& path) : path_(path) {}
+
+  bool between(const Placed& a, const Placed& b) {
+    const Events events = events_between(a.at, b.at);
+    if (events.count() == 0) return true;
+    const double width = b.s - a.s;
+    const bool narrow = width <= widest_stencil;
+    if (narrow && events.is_simple()) return locate(a, b, events.fold ? Kind::fold : Kind::branch, 1);
+    const bool stays_double = path_.is_straight(a.at.x) || width < closest_events;
+    if (narrow && events.may_be_double() && stays_double) return locate(a, b, Kind::branch, 2);
+    if (width < closest_events / 10) return false;
+    // Not halves: symmetric paths have their critical points in the middle.
+    for (const double share : {0.53, 0.41, 0.62}) {
+      const double s = a.s + share * width;
+      const std::optional<Solution> middle = path_.at(s, (1 - share) * a.at.x + share * b.at.x);
+      if (middle) return between(a, {s, *middle}) && between({s, *middle}, b);
+    }
+    return false;
+  }
+
+  std::vector<CriticalPoint> found;
+
+ private:
+  struct Samples {
+    std::vector<double> s, values;
+    std::vector<VectorXd> x, tangents;
+  };
+
+  // Chebyshev's points.
+  std::optional<Samples> sample(const Placed& a, const Placed& b, const Continuation::SingularVectors* vectors) {
+    constexpr int count = 6;
+    Samples samples;
+    MatrixXd first;
+    for (int i = 0; i < count; ++i) {
+      const double share = (1 - std::cos((i + 0.5) * std::numbers::pi / count)) / 2;
+      const double s = a.s + share * (b.s - a.s);
+      const std::optional<Solution> at = path_.at(s, (1 - share) * a.at.x + share * b.at.x);
+      if (!at) return std::nullopt;
+      samples.s.push_back(s);
+      samples.x.push_back(at->x);
+      samples.tangents.push_back(at->tangent);
+      double value = at->slope();
+      if (vectors != nullptr) {
+        const MatrixXd G = path_.singularity(at->x, *vectors).G;
+        if (i == 0) first = G;
+        value = G.cwiseProduct(first).sum();
+      }
+      samples.values.push_back(value);
+    }
+    return samples;
+  }
+
+  bool locate(const Placed& a, const Placed& b, Kind kind, int multiplicity) {
+    std::optional<Continuation::SingularVectors> vectors;
+    if (kind == Kind::branch) vectors = path_.smallest_vectors(b.at, multiplicity);
+    const std::optional<Samples> samples = sample(a, b, vectors ? &*vectors : nullptr);
+    if (!samples) return false;
+    // The ends' signs tell that it lies between them; the polynomial may have it a little beyond.
+    const double beyond = 0.05 * (b.s - a.s);
+    const std::optional<double> s = zero_through(samples->s, samples->values, a.s - beyond, b.s + beyond);
+    if (!s) return false;
+    CriticalPoint point;
+    point.kind = kind;
+    point.multiplicity = multiplicity;
+    point.s = *s;
+    point.x = through(samples->s, samples->x, *s);
+    point.tangent = through(samples->s, samples->tangents, *s);
+    if (vectors) point.null_vectors = path_.singularity(point.x, *vectors).null_vectors;
+    if (a.at.index && b.at.index) point.index = std::min(*a.at.index, *b.at.index);
+    found.push_back(std::move(point));
+    return true;
+  }
+
+  Continuation& path_;
+};
+
+}  // namespace
+
+std::optional<std::vector<CriticalPoint>> critical_points(Continuation& path, const Solution& end, double s) {
+  Search search(path);
+  if (!search.between({0, path.base()}, {s, end})) return std::nullopt;
+  return std::move(search.found);
+}
+
+}  // namespace exact_reference
