@@ -277,6 +277,22 @@ bool Continuation::set_free_turn(const Solution& at) {
   return free_column_.allFinite();
 }
 
+bool Continuation::is_turn_free(const VectorXd& x) {
+  constexpr double step = 1e-4, free = 1e-6;  // chosen, not measured
+  const VectorXd turn = step * turned_about_axis(x);
+  set(x[x.size() - 1]);
+  const auto residual = [&](const VectorXd& at) {
+    return shooting_.residual(node_states_of(at), load_factor_, weight_);
+  };
+  const double size = weighted(turn).lpNorm<Eigen::Infinity>();
+  return (residual(x + turn) - residual(x - turn)).lpNorm<Eigen::Infinity>() < 2 * free * size;
+}
+
+void Continuation::hold_turn() {
+  free_row_.resize(0);
+  free_column_.resize(0);
+}
+
 bool Continuation::start(const NodeStates& y, double parameter, double direction) {
   const long n = size();
   Solution at;
@@ -293,8 +309,7 @@ void Continuation::start_branch(const VectorXd& x, const VectorXd& direction, co
   base_.x = x;
   weight_ = shooting_.weights(states(x));
   base_.tangent = direction / std::sqrt(inner(direction, direction));
-  free_row_.resize(0);
-  free_column_.resize(0);
+  hold_turn();
   if (free_turn == nullptr) return;
   free_row_ = row_of(*free_turn).head(size()).normalized();
   free_column_ = any_vector(size(), 1);

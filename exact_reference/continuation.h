@@ -76,7 +76,11 @@ class Continuation {
   const ScaledRod& rod() const { return rod_; }
   const Shooting& shooting() const { return shooting_; }
   double load_factor() const { return load_factor_; }
+  double parameter_scale() const { return scale_; }
   bool turns_freely() const { return free_row_.size() > 0; }
+  // The turn changes no equation at this solution. If not, forget it.
+  bool is_turn_free(const Eigen::VectorXd& x);
+  void hold_turn();
   bool is_straight(const Eigen::VectorXd& x) const;
 
  private:

@@ -14,6 +14,8 @@ using Kind = scene::PathPoint::Kind;
 // Chosen, not measured: the polynomial's error falls as the sixth power, and round-off rises as the inverse.
 constexpr double widest_stencil = 0.02;
 constexpr double closest_events = 1e-5;  // nearer ones count as one double point
+// A branch whose parameter does not change at all: where one value of it lets equilibria turn freely.
+constexpr double no_slope = 1e-8;
 
 struct Placed {
   double s = 0;
@@ -27,12 +29,15 @@ struct Events {
 
   int count() const { return std::max<int>(fold + branch, index_change.value_or(turned_in_plane ? 2 : 0)); }
   bool is_simple() const { return fold + branch == 1 && index_change.value_or(1) == 1; }
+  // Also a pitchfork, met on the branch that is its handle's mirror: the parameter turns back there.
+  bool is_fold_and_branch() const { return fold && branch && index_change.value_or(0) % 2 == 0; }
   bool may_be_double() const { return !fold && !branch && index_change.value_or(turned_in_plane ? 2 : 0) == 2; }
 };
 
-Events events_between(const Solution& a, const Solution& b) {
+Events events_between(const Continuation& path, const Solution& a, const Solution& b) {
   Events events;
-  events.fold = (a.slope() < 0) != (b.slope() < 0);
+  const bool stands_still = std::max(std::abs(a.slope()), std::abs(b.slope())) < no_slope * path.parameter_scale();
+  events.fold = !stands_still && (a.slope() < 0) != (b.slope() < 0);
   events.branch = a.negative != b.negative;
   if (a.index && b.index) events.index_change = std::abs(*a.index - *b.index);
   const bool straight = a.negative_in_xy && b.negative_in_xy;
@@ -72,13 +77,16 @@ class Search {
   explicit Search(Continuation& path) : path_(path) {}
 
   bool between(const Placed& a, const Placed& b) {
-    const Events events = events_between(a.at, b.at);
+    const Events events = events_between(path_, a.at, b.at);
     if (events.count() == 0) return true;
     const double width = b.s - a.s;
     const bool narrow = width <= widest_stencil;
-    if (narrow && events.is_simple()) return locate(a, b, events.fold ? Kind::fold : Kind::branch, 1);
+    if (narrow && (events.is_simple() || events.is_fold_and_branch())) {
+      return locate(a, b, {.fold = events.fold, .branch = events.branch, .multiplicity = 1});
+    }
     const bool stays_double = path_.is_straight(a.at.x) || width < closest_events;
-    if (narrow && events.may_be_double() && stays_double) return locate(a, b, Kind::branch, 2);
+    if (narrow && events.may_be_double() && stays_double)
+      return locate(a, b, {.fold = false, .branch = true, .multiplicity = 2});
     if (width < closest_events / 10) return false;
     // Not halves: symmetric paths have their critical points in the middle.
     for (const double share : {0.53, 0.41, 0.62}) {
@@ -92,12 +100,16 @@ class Search {
   std::vector<CriticalPoint> found;
 
  private:
+  struct Wanted {
+    bool fold, branch;
+    int multiplicity;
+  };
   struct Samples {
-    std::vector<double> s, values;
+    std::vector<double> s, slopes, singularities;
     std::vector<VectorXd> x, tangents;
   };
 
-  // Chebyshev's points.
+  // At Chebyshev's points. The singularities: of the matrix along these vectors.
   std::optional<Samples> sample(const Placed& a, const Placed& b, const Continuation::SingularVectors* vectors) {
     constexpr int count = 6;
     Samples samples;
@@ -110,36 +122,47 @@ class Search {
       samples.s.push_back(s);
       samples.x.push_back(at->x);
       samples.tangents.push_back(at->tangent);
-      double value = at->slope();
-      if (vectors != nullptr) {
-        const MatrixXd G = path_.singularity(at->x, *vectors).G;
-        if (i == 0) first = G;
-        value = G.cwiseProduct(first).sum();
-      }
-      samples.values.push_back(value);
+      samples.slopes.push_back(at->slope());
+      if (vectors == nullptr) continue;
+      const MatrixXd G = path_.singularity(at->x, *vectors).G;
+      if (i == 0) first = G;
+      samples.singularities.push_back(G.cwiseProduct(first).sum());
     }
     return samples;
   }
 
-  bool locate(const Placed& a, const Placed& b, Kind kind, int multiplicity) {
+  bool locate(const Placed& a, const Placed& b, const Wanted& wanted) {
     std::optional<Continuation::SingularVectors> vectors;
-    if (kind == Kind::branch) vectors = path_.smallest_vectors(b.at, multiplicity);
+    if (wanted.branch) vectors = path_.smallest_vectors(b.at, wanted.multiplicity);
     const std::optional<Samples> samples = sample(a, b, vectors ? &*vectors : nullptr);
     if (!samples) return false;
     // The ends' signs tell that it lies between them; the polynomial may have it a little beyond.
     const double beyond = 0.05 * (b.s - a.s);
-    const std::optional<double> s = zero_through(samples->s, samples->values, a.s - beyond, b.s + beyond);
-    if (!s) return false;
-    CriticalPoint point;
+    std::optional<double> fold, branch;
+    if (wanted.fold) fold = zero_through(samples->s, samples->slopes, a.s - beyond, b.s + beyond);
+    if (wanted.branch) branch = zero_through(samples->s, samples->singularities, a.s - beyond, b.s + beyond);
+    if ((wanted.fold && !fold) || (wanted.branch && !branch)) return false;
+    const bool together = fold && branch && std::abs(*fold - *branch) < closest_events;
+    const std::size_t before = found.size();
+    if (fold && !together) note(Kind::fold, *fold, 1, *samples);
+    if (branch) {
+      note(Kind::branch, *branch, wanted.multiplicity, *samples);
+      found.back().null_vectors = path_.singularity(found.back().x, *vectors).null_vectors;
+    }
+    if (found.size() == before + 2 && *fold > *branch) std::swap(found[before], found[before + 1]);
+    if (a.at.index && b.at.index) {
+      for (std::size_t i = before; i < found.size(); ++i) found[i].index = std::min(*a.at.index, *b.at.index);
+    }
+    return true;
+  }
+
+  void note(Kind kind, double s, int multiplicity, const Samples& samples) {
+    CriticalPoint& point = found.emplace_back();
     point.kind = kind;
     point.multiplicity = multiplicity;
-    point.s = *s;
-    point.x = through(samples->s, samples->x, *s);
-    point.tangent = through(samples->s, samples->tangents, *s);
-    if (vectors) point.null_vectors = path_.singularity(point.x, *vectors).null_vectors;
-    if (a.at.index && b.at.index) point.index = std::min(*a.at.index, *b.at.index);
-    found.push_back(std::move(point));
-    return true;
+    point.s = s;
+    point.x = through(samples.s, samples.x, s);
+    point.tangent = through(samples.s, samples.tangents, s);
   }
 
   Continuation& path_;

@@ -19,18 +19,13 @@ class RequestedRods {
     cutter_.cut(scenes);
     // Loads may vanish at one value: that of the ends and of one that is no one's half.
     for (const double share : {0.0, 0.4137, 1.0}) {
-      const double parameter = std::lerp(request.from, request.to, share);
-      has_energy &= at(parameter).has_energy();
-      scene::Reused<scene::Span> spans;
-      cutter_.fill(scene::scene_at(request, parameter), spans);
-      turns_freely &= scene::is_isotropic(spans) && scene::needs_no_plane(spans);
+      has_energy &= at(std::lerp(request.from, request.to, share)).has_energy();
     }
   }
 
   ScaledRod at(double parameter) const { return scaled_rod(scene::scene_at(request_, parameter), cutter_, model_); }
 
   bool has_energy = true;
-  bool turns_freely = true;  // all is the same after a turn about the axis
 
  private:
   const scene::PathRequest& request_;
@@ -106,7 +101,6 @@ class Follower {
     VectorXd direction = point.null_vectors.col(0), free_turn;
     path.start_branch(point.x, direction, nullptr);
     Eigen::Vector3d motion = tip_motion(path, point.x, direction);
-    const bool free = point.multiplicity == 2 && rods_.turns_freely;
     if (point.multiplicity == 2) {
       const VectorXd other = point.null_vectors.col(1);
       const Eigen::Vector3d other_motion = tip_motion(path, point.x, other);
@@ -117,7 +111,7 @@ class Follower {
     constexpr double no_motion = 1e-6;
     const double towards = std::abs(motion[1]) > no_motion * motion.norm() ? motion[1] : motion[2];
     if (towards < 0) direction = -direction;
-    path.start_branch(point.x, direction, free ? &free_turn : nullptr);
+    path.start_branch(point.x, direction, free_turn.size() > 0 ? &free_turn : nullptr);
     PathWalk walk(route_, path, branch, result_, visit_);
     walk.from_parting(parting);
     finish(walk, branch);

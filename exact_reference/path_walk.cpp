@@ -82,6 +82,7 @@ void PathWalk::from_parting(const Parting& parting) {
     const std::optional<Solution> first = path_.at(s);
     if (!first || path_.distance(first->x, path_.base().x + s * path_.base().tangent) > s) continue;
     note(start);
+    if (path_.turns_freely() && !path_.is_turn_free(first->x)) path_.hold_turn();
     if (note_stretch(*first, s, {})) return;
     if (!path_.advance(*first)) break;
     walk(s);
