@@ -126,6 +126,11 @@ VectorXd Continuation::row_of(const VectorXd& direction) const {
   return row;
 }
 
+double Continuation::largest_residual(const VectorXd& x) {
+  set(x[x.size() - 1]);
+  return shooting_.residual(node_states_of(x), load_factor_, weight_).lpNorm<Eigen::Infinity>();
+}
+
 double Continuation::inner(const VectorXd& a, const VectorXd& b) const {
   return row_of(a).dot(weighted(b));
 }
@@ -139,6 +144,14 @@ double Continuation::turn_to(const Solution& there) const {
   const VectorXd change = there.x - base_.x;
   for (long i = 0; i + 1 < change.size(); i += core_size) turn = std::max(turn, 2 * change.segment<4>(i).norm());
   return turn;
+}
+
+bool Continuation::leads_to(const Solution& there) {
+  // Chosen; of 3309 steps on some fifty paths the halfway residual of half is below 9e-8, of 99 % below 4e-6.
+  constexpr double largest_turn_rad = 0.35, largest_halfway = 1e-5;
+  if (!(turn_to(there) < largest_turn_rad)) return false;
+  const double length = distance(there.x, base_.x);
+  return largest_residual((base_.x + there.x) / 2 + length / 8 * (base_.tangent - there.tangent)) < largest_halfway;
 }
 
 bool Continuation::is_straight(const VectorXd& x) const {
@@ -299,8 +312,13 @@ bool Continuation::start(const NodeStates& y, double parameter, double direction
   at.x = solution_of(y, parameter);
   at.tangent = direction * VectorXd::Unit(n + 1, n);
   weight_ = shooting_.weights(y);
-  const VectorXd origin = at.x, along_parameter = scale_ * at.tangent;
-  if (!correct(at.x, origin, along_parameter, 0) || !advance(std::move(at))) return false;
+  const VectorXd origin = at.x;
+  if (!correct(at.x, origin, scale_ * at.tangent, 0)) return false;
+  // Refined along its own tangent: beside a fold there may be none at this very value on the finer mesh.
+  base_ = std::move(at);
+  if (!measure(base_) || !advance(base_)) return false;
+  const std::optional<Solution> exact = at_parameter(parameter, base_);
+  if (exact && distance(exact->x, base_.x) < 1e-3) base_ = *exact;
   return measure(base_);
 }
 

@@ -29,8 +29,6 @@ struct Solution {
   double slope() const { return tangent[tangent.size() - 1]; }  // d(parameter)/ds
 };
 
-constexpr double largest_turn_of_path_rad = 0.35;  // in a step; chosen, not measured
-
 class Continuation {
  public:
   // The mesh is one of the rod's. Tolerance as of Options. has_energy: at every value of the parameter.
@@ -65,11 +63,17 @@ class Continuation {
   };
   Singularity singularity(const Eigen::VectorXd& x, const SingularVectors& vectors);
 
+  // Of the equations at x, in the matrix's units.
+  double largest_residual(const Eigen::VectorXd& x);
+
   double inner(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
   double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
   // The angle between the path's tangents at the base and there, or, if that is larger, the largest rotation of a
-  // section: a step that turns much may have left the branch.
+  // section.
   double turn_to(const Solution& there) const;
+  // A solution further on is one of this branch: the turn is small, and the cubic curve between the two nearly solves
+  // the equations halfway. Else it may be another's, or folds may lie between.
+  bool leads_to(const Solution& there);
 
   // With positions, the rod and the load factor set to the parameter's value.
   NodeStates states(const Eigen::VectorXd& x);

@@ -16,8 +16,7 @@ std::optional<double> fold_ahead(const ScaledRod& rod, const MeshedStates& from,
   double s = first_step;
   for (int step = 0; step < most_steps && path.base().parameter() < 1 && s > smallest_step; ++step) {
     const std::optional<Solution> next = path.at(s);
-    const auto found =
-        next && path.turn_to(*next) < largest_turn_of_path_rad ? critical_points(path, *next, s) : std::nullopt;
+    const auto found = next && path.leads_to(*next) ? critical_points(path, *next, s) : std::nullopt;
     if (!found) {
       s /= 2;
       continue;

@@ -105,12 +105,13 @@ bool PathWalk::step(double& s) {
   for (; s > smallest_step; s /= 2) {
     const std::optional<Solution> next = path_.at(s);
     if (!next) continue;
-    const double turn = path_.turn_to(*next), change = std::abs(next->parameter() - path_.base().parameter());
+    const double change = std::abs(next->parameter() - path_.base().parameter());
     const bool too_far = route_.largest_step && change > *route_.largest_step * (1 + 1e-9);
-    if (!(turn < largest_turn_of_path_rad) || too_far) continue;
+    if (too_far || !path_.leads_to(*next)) continue;
     const std::optional<std::vector<CriticalPoint>> critical = critical_points(path_, *next, s);
     if (!critical) continue;
     if (note_stretch(*next, s, *critical)) return true;
+    const double turn = path_.turn_to(*next);
     if (!path_.advance(*next)) return stop(PathStatus::step_too_small, "the mesh does not settle at %.8g");
     s *= std::clamp(wanted_turn_rad / std::max(turn, 1e-3), 0.5, 1.5);
     return false;
