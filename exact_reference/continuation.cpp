@@ -1,8 +1,7 @@
 #include "exact_reference/continuation.h"
 
+#include "exact_reference/solution_vector.h"
 #include "exact_reference/stability.h"
-
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <utility>
@@ -15,17 +14,6 @@ using Eigen::VectorXd;
 
 constexpr int most_mesh_intervals = 20'000;
 
-// No direction of it is known beforehand: neither symmetric nor antisymmetric to anything.
-VectorXd any_vector(long size, double seed) {
-  VectorXd v(size);
-  for (long i = 0; i < size; ++i) v[i] = std::sin(seed + 1.7 * static_cast<double>(i * i));
-  return v.normalized();
-}
-
-MatrixXd orthonormal(const MatrixXd& columns) {
-  return columns.householderQr().householderQ() * MatrixXd::Identity(columns.rows(), columns.cols());
-}
-
 std::vector<double> places_of(const Mesh& mesh) {
   std::vector<double> places;
   for (const Interval& interval : mesh) places.push_back(interval.start);
@@ -33,51 +21,7 @@ std::vector<double> places_of(const Mesh& mesh) {
   return places;
 }
 
-// Values at one mesh's nodes as values at another's, linear between them; the last number stays.
-VectorXd interpolated(const VectorXd& a, const std::vector<double>& from, const std::vector<double>& to) {
-  VectorXd result(core_size * static_cast<long>(to.size()) + 1);
-  std::size_t i = 0;
-  for (std::size_t k = 0; k < to.size(); ++k) {
-    while (i + 2 < from.size() && to[k] > from[i + 1]) ++i;
-    const double share = std::clamp((to[k] - from[i]) / (from[i + 1] - from[i]), 0.0, 1.0);
-    const long first = core_size * static_cast<long>(i);
-    result.segment<core_size>(core_size * static_cast<long>(k)) =
-        (1 - share) * a.segment<core_size>(first) + share * a.segment<core_size>(first + core_size);
-  }
-  result.tail<1>() = a.tail<1>();
-  return result;
-}
-
-// Of the equilibrium, as it is turned about the base frame's x axis, each section against that.
-VectorXd turned_about_axis(const VectorXd& x) {
-  VectorXd turn = VectorXd::Zero(x.size());
-  for (long i = 0; i + 1 < x.size(); i += core_size) {
-    for (const long pair : {2, 5, 8}) {  // of q, N, M
-      turn[i + pair] = -x[i + pair + 1];
-      turn[i + pair + 1] = x[i + pair];
-    }
-  }
-  return turn;
-}
-
 }  // namespace
-
-NodeStates node_states_of(const VectorXd& x) {
-  NodeStates y(static_cast<std::size_t>(x.size() / core_size), State::Zero());
-  for (std::size_t k = 0; k < y.size(); ++k) {
-    y[k].head<core_size>() = x.segment<core_size>(core_size * static_cast<long>(k));
-  }
-  return y;
-}
-
-VectorXd solution_of(const NodeStates& y, double parameter) {
-  VectorXd x(core_size * static_cast<long>(y.size()) + 1);
-  for (std::size_t k = 0; k < y.size(); ++k) {
-    x.segment<core_size>(core_size * static_cast<long>(k)) = y[k].head<core_size>();
-  }
-  x.tail<1>()[0] = parameter;
-  return x;
-}
 
 Continuation::Continuation(ScaledRod rod, ParameterSetter set, double parameter_scale, double tolerance, Mesh mesh,
                            bool has_energy)
@@ -281,31 +225,6 @@ bool Continuation::refine(Solution& at) {
   return true;
 }
 
-// The column: of the equations' left null vector, which one solve with any column gives.
-bool Continuation::set_free_turn(const Solution& at) {
-  const long n = size();
-  free_row_ = row_of(turned_about_axis(at.x)).head(n).normalized();
-  if (!factorise(at.x, at.tangent)) return false;
-  free_column_ = matrix_.solve_transposed(VectorXd::Unit(n + 2, n + 1)).col(0).head(n).normalized();
-  return free_column_.allFinite();
-}
-
-bool Continuation::is_turn_free(const VectorXd& x) {
-  constexpr double step = 1e-4, free = 1e-6;  // chosen, not measured
-  const VectorXd turn = step * turned_about_axis(x);
-  set(x[x.size() - 1]);
-  const auto residual = [&](const VectorXd& at) {
-    return shooting_.residual(node_states_of(at), load_factor_, weight_);
-  };
-  const double size = weighted(turn).lpNorm<Eigen::Infinity>();
-  return (residual(x + turn) - residual(x - turn)).lpNorm<Eigen::Infinity>() < 2 * free * size;
-}
-
-void Continuation::hold_turn() {
-  free_row_.resize(0);
-  free_column_.resize(0);
-}
-
 bool Continuation::start(const NodeStates& y, double parameter, double direction) {
   const long n = size();
   Solution at;
@@ -339,37 +258,6 @@ bool Continuation::advance(Solution next) {
   base_ = std::move(next);
   // A refined mesh has another determinant, other borders may have another sign.
   return (shooting_.mesh().size() == intervals && !turns_freely()) || measure(base_);
-}
-
-Continuation::SingularVectors Continuation::smallest_vectors(const Solution& at, int count) {
-  constexpr int iterations = 5;
-  const long n = size() + (turns_freely() ? 2 : 1);
-  MatrixXd right(n, count), left;
-  for (int i = 0; i < count; ++i) right.col(i) = any_vector(n, i);
-  factorise(at.x, base_.tangent);
-  for (int i = 0; i < iterations; ++i) {
-    left = orthonormal(matrix_.solve_transposed(right));
-    right = orthonormal(matrix_.solve(left));
-  }
-  return {left, right};
-}
-
-Continuation::Singularity Continuation::singularity(const VectorXd& x, const SingularVectors& vectors) {
-  const long n = size(), count = vectors.left.cols();
-  Bordered all = bordered(x, base_.tangent);
-  const long k = all.columns.cols();
-  MatrixXd columns = MatrixXd::Zero(n + k + count, k + count), rows(k + count, n);
-  columns.topLeftCorner(n + k, k) = all.columns;
-  columns.topRightCorner(n + k, count) = vectors.left;
-  columns.bottomLeftCorner(count, k) = vectors.right.bottomRows(k).transpose();
-  rows << all.rows, vectors.right.topRows(n).transpose();
-  wider_.factorise(all.band, columns, rows);
-  MatrixXd right = MatrixXd::Zero(n + k + count, count);
-  right.bottomRows(count).setIdentity();
-  const MatrixXd solution = wider_.solve(right);
-  Singularity result{solution.bottomRows(count), MatrixXd(n + 1, count)};
-  for (long i = 0; i < count; ++i) result.null_vectors.col(i) = unweighted(solution.col(i).head(n + 1));
-  return result;
 }
 
 }  // namespace exact_reference

@@ -121,8 +121,4 @@ class Continuation {
   Eigen::VectorXd free_row_, free_column_;
 };
 
-// Core states at the nodes, and back.
-NodeStates node_states_of(const Eigen::VectorXd& x);
-Eigen::VectorXd solution_of(const NodeStates& y, double parameter);
-
 }  // namespace exact_reference

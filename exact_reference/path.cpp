@@ -3,6 +3,8 @@
 #include "exact_reference/boundary_value.h"
 #include "exact_reference/path_walk.h"
 
+#include <algorithm>
+#include <cmath>
 #include <deque>
 
 namespace exact_reference {

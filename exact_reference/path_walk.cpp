@@ -3,7 +3,6 @@
 #include "exact_reference/shape.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 
