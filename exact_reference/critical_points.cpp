@@ -76,14 +76,33 @@ std::optional<double> zero_through(const std::vector<double>& s, const std::vect
   return (a + b) / 2;
 }
 
+// Where the slope of the cubic that has the ends' parameters and slopes is opposite to theirs: two folds may lie
+// between. A share of the way.
+std::optional<double> hidden_folds(const Placed& a, const Placed& b) {
+  const double start = a.at.slope(), end = b.at.slope();
+  const double chord = (b.at.parameter() - a.at.parameter()) / (b.s - a.s);
+  const double linear = 6 * chord - 4 * start - 2 * end, square = 3 * (start + end) - 6 * chord;
+  const double share = -linear / (2 * square);  // the slope at it: start + linear share + square share^2
+  if (!(share > 0 && share < 1) || (start + linear * share / 2) * start >= 0) return std::nullopt;
+  return share;
+}
+
 class Search {
  public:
   explicit Search(Continuation& path) : path_(path) {}
 
   bool between(const Placed& a, const Placed& b) {
     const Events events = events_between(path_, a.at, b.at);
-    if (events.count() == 0) return true;
     const double width = b.s - a.s;
+    if (events.count() == 0) {
+      const std::optional<double> share = hidden_folds(a, b);
+      if (!share) return true;
+      const double s = a.s + *share * width;
+      const std::optional<Solution> middle = path_.at(s, (1 - *share) * a.at.x + *share * b.at.x);
+      if (!middle) return false;
+      const bool folds = (middle->slope() < 0) != (a.at.slope() < 0);
+      return !folds || (between(a, {s, *middle}) && between({s, *middle}, b));
+    }
     const bool narrow = width <= widest_stencil;
     if (narrow && (events.is_simple() || events.is_fold_and_branch())) {
       return locate(a, b, {.fold = events.fold, .branch = events.branch, .multiplicity = 1});

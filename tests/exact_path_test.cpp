@@ -33,6 +33,16 @@ void expect_first(const scene::PathRequest& request, Kind kind, double expected,
   EXPECT_TRUE(stiff.empty() || std::abs(stiff[0].parameter / expected - 1) > limit);
 }
 
+scene::PathRequest turned_curved_rod(double force_N) {
+  scene::PathRequest request;
+  request.scene = uniform_rod(1.7, 1, 1 / 1.3);
+  request.scene.sections[0].rest_curvature_per_mm = {0, 1.5, 0};
+  request.scene.loads = {scene::Force{1.7, Frame::fixed, {0, 0, -force_N}, {0.02, 0}}};
+  request.parameter = PathParameter::turn_rad;
+  request.to = 2 * pi;
+  return request;
+}
+
 }  // namespace
 
 // pi^2/4, a closed form; measured 1e-13.
@@ -145,12 +155,7 @@ TEST(ExactPath, PartlyFollowingThrust) {
 // AUTO-07p's demo of a curved rod that is turned in its clamp. Folds refined outside this project: 3.292926116 and
 // 3.033816950. Here 3.292926116429 and 3.033816950138, to the last digit at tolerances of 1e-12 and 1e-13.
 TEST(ExactPath, CurvedRodTurnedInItsClamp) {
-  scene::PathRequest request;
-  request.scene = uniform_rod(1.7, 1, 1 / 1.3);
-  request.scene.sections[0].rest_curvature_per_mm = {0, 1.5, 0};
-  request.scene.loads = {scene::Force{1.7, Frame::fixed, {0, 0, -1.15}, {0.02, 0}}};
-  request.parameter = PathParameter::turn_rad;
-  request.to = 2 * pi;
+  scene::PathRequest request = turned_curved_rod(1.15);
   const auto folds = [&](double tolerance) {
     const scene::Path path = exact_reference::follow(request, {.tolerance = tolerance});
     EXPECT_EQ(path.status, PathStatus::reached) << path.message;
@@ -166,6 +171,21 @@ TEST(ExactPath, CurvedRodTurnedInItsClamp) {
   EXPECT_LT((folds(1e-9) - found).lpNorm<Eigen::Infinity>(), 1e-8);
   request.scene = stiffer(request.scene);
   EXPECT_GT((folds(1e-12) - expected).lpNorm<Eigen::Infinity>(), 1e-3);
+}
+
+// The same under a smaller force, where its two folds are about to vanish: 3e-6 apart. A value between them is met
+// three times.
+TEST(ExactPath, TwoFoldsInOneStep) {
+  scene::PathRequest request = turned_curved_rod(0.8654);
+  const std::vector<scene::PathPoint> folds = points_of_kind(complete_path(request), Kind::fold);
+  ASSERT_EQ(folds.size(), 2u);
+  EXPECT_LT(folds[0].parameter - folds[1].parameter, 1e-5);
+  const double between = (folds[0].parameter + folds[1].parameter) / 2;
+  request.stop_at = {between};
+  int met = 0;
+  for (const scene::PathPoint& point : complete_path(request).points) met += point.parameter == between;
+  EXPECT_EQ(met, 3);
+  EXPECT_TRUE(points_of_kind(complete_path(turned_curved_rod(0.864)), Kind::fold).empty());
 }
 
 // The same at half a turn, without the lever arm: published between 0.865 and 0.866. The curved rod hangs upwards and
