@@ -24,7 +24,6 @@ constexpr double first_turn_rad = 0.1;
 constexpr int most_load_steps = 3000;
 constexpr double most_work = 300'000;         // intervals linearised: seconds
 constexpr double most_rest_turn_rad = 1e4;    // two intervals a radian, and so seconds, too
-constexpr double collapsed_tangent = 1e-4;    // of a tendon where the load cannot grow
 constexpr double longest_step_on_way = 0.05;  // loads that turn back pass where branches meet; chosen, not measured
 constexpr double smallest_step = 1e-8;        // of the load reached or of the first step, whichever is larger
 
@@ -204,19 +203,6 @@ void set_stability(scene::Equilibrium& result, const ScaledRod& rod, const Path&
   result.model.emplace_back("falling_directions", *falling);
 }
 
-// |v + u x r|, the least at a node.
-double shortest_tendon_tangent(const ScaledRod& rod, const Path& path) {
-  double shortest = HUGE_VAL;
-  for (std::size_t i = 0; i < path.shooting.mesh().size(); ++i) {
-    const ScaledSpan& span = rod.spans[static_cast<std::size_t>(path.shooting.mesh()[i].span)];
-    const Strains strains = path.shooting.equations(i, path.load).strains(path.y[i + 1]);
-    for (const ScaledTendon& tendon : span.tendons) {
-      shortest = std::min(shortest, (strains.stretch_S + strains.curvature_S.cross(tendon.arm_S)).norm());
-    }
-  }
-  return shortest;
-}
-
 double rest_turn_rad(const ScaledRod& rod) {
   double turn = 0;
   for (const ScaledSpan& span : rod.spans) turn += span.length() * span.rest_curvature_S.norm();
@@ -234,7 +220,7 @@ scene::Equilibrium stopped(const ScaledRod& rod, const Path& path) {
   result.status = scene::Status::load_step_too_small;
   result.message =
       text("no equilibrium found next to the one at %.6g of the load: a fold, or too large a load", path.load);
-  if (path.tendon_collapsed || shortest_tendon_tangent(rod, path) < collapsed_tangent) {
+  if (path.tendon_collapsed || tendon_has_collapsed(rod, path.shooting, path.y, path.load)) {
     result.status = scene::Status::tendon_collapsed;
     result.message = text("the path of a tendon has no length somewhere beyond %.6g of the load", path.load);
   } else if (path.exhausted() || path.steps > most_load_steps) {

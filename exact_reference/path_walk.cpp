@@ -115,6 +115,10 @@ bool PathWalk::step(double& s) {
     s *= std::clamp(wanted_turn_rad / std::max(turn, 1e-3), 0.5, 1.5);
     return false;
   }
+  const NodeStates y = path_.states(path_.base().x);
+  if (tendon_has_collapsed(path_.rod(), path_.shooting(), y, path_.load_factor())) {
+    return stop(PathStatus::step_too_small, "the path of a tendon has no length somewhere beyond %.8g");
+  }
   return stop(PathStatus::step_too_small, "steps along the path fell below 1e-9 of its length at %.8g");
 }
 

@@ -39,4 +39,19 @@ void set_shape(scene::Equilibrium& result, const ScaledRod& rod, const Shooting&
   result.tendon_shortening_mm = tendon_shortening_mm(rod, nodes);
 }
 
+bool tendon_has_collapsed(const ScaledRod& rod, const Shooting& shooting, const NodeStates& y, double load_factor) {
+  constexpr double collapsed = 1e-4;
+  for (std::size_t i = 0; i < shooting.mesh().size(); ++i) {
+    const ScaledSpan& span = rod.spans[static_cast<std::size_t>(shooting.mesh()[i].span)];
+    const RodEquations equations = shooting.equations(i, load_factor);
+    for (const State& state : {shooting.start_state(y, load_factor, i), y[i + 1]}) {
+      const Strains strains = equations.strains(state);
+      for (const ScaledTendon& tendon : span.tendons) {
+        if ((strains.stretch_S + strains.curvature_S.cross(tendon.arm_S)).norm() < collapsed) return true;
+      }
+    }
+  }
+  return false;
+}
+
 }  // namespace exact_reference

@@ -90,7 +90,7 @@ TEST(ExactPath, EulersColumnWithoutAPlane) {
   request.scene = stiffer(request.scene);
   EXPECT_GT(std::abs(angle_on_branch(request) - pi / 3), 1e-2);
   const scene::Path path = complete_path(request);
-  EXPECT_EQ(points_of_kind(path, Kind::branch)[0].multiplicity, 2);
+  EXPECT_EQ(points_of_kind(path, Kind::branch).at(0).multiplicity, 2);
   EXPECT_EQ(indices(path, 0), (std::vector<int>{0, 2}));
 }
 
@@ -120,7 +120,7 @@ TEST(ExactPath, TwistedColumn) {
   request.branches = 1;
   expect_first(request, Kind::branch, pi * pi / 4, 1e-11);
   const scene::Path path = complete_path(request);
-  EXPECT_EQ(points_of_kind(path, Kind::branch)[0].multiplicity, 2);
+  EXPECT_EQ(points_of_kind(path, Kind::branch).at(0).multiplicity, 2);
   EXPECT_TRUE(path.points.back().neutral);
   EXPECT_EQ(path.points.back().stable, true);
 }
@@ -145,7 +145,7 @@ TEST(ExactPath, PartlyFollowingThrust) {
   request.branches = 1;
   expect_first(request, Kind::branch, std::pow(std::acos(-0.3 / 0.7), 2), 1e-11);
   const scene::Path path = complete_path(request);
-  EXPECT_EQ(points_of_kind(path, Kind::branch)[0].multiplicity, 2);
+  EXPECT_EQ(points_of_kind(path, Kind::branch).at(0).multiplicity, 2);
   for (const scene::PathPoint& point : path.points) EXPECT_FALSE(point.index || point.stable);
   EXPECT_TRUE(path.points.back().neutral);
   scene::PathRequest follower = load_growth(tip_force(uniform_rod(1, 1, 1), Frame::follower, {-1, 0, 0}), 25);
