@@ -28,11 +28,12 @@ scene::PathRequest finger() {
 }
 
 // A curved strip under two forces that turn it over: its load meets a fold.
-scene::Scene snapping_strip() {
+scene::Scene snapping_strip(double curvature_per_mm = 0.02, const Vector3d& tip_force_N = {1, -2, -3},
+                            const Vector3d& force_N = {-2, -1, -1}) {
   scene::Scene rod = uniform_rod(100, 1000, 700);
   stiffness(rod).bending_Nmm2[0] = 3000;
-  rod.sections[0].rest_curvature_per_mm = {0, 0, 0.02};
-  rod.loads = {scene::Force{100, Frame::fixed, {1, -2, -3}}, scene::Force{60, Frame::fixed, {-2, -1, -1}}};
+  rod.sections[0].rest_curvature_per_mm = {0, 0, curvature_per_mm};
+  rod.loads = {scene::Force{100, Frame::fixed, tip_force_N}, scene::Force{60, Frame::fixed, force_N}};
   return rod;
 }
 
@@ -96,6 +97,20 @@ TEST(ExactPathScenes, AGrowingLoadEndsInAFold) {
   const scene::Equilibrium twin = solve(stiffer(rod));
   ASSERT_TRUE(twin.limit);
   EXPECT_GT(std::abs(twin.limit->load_factor - expected), 1e-2);
+}
+
+// The load grows on a coarser mesh, whose fold may lie a little before or beyond: three of which the fold is found only
+// along the path.
+TEST(ExactPathScenes, FoldsWhereTheLoadCannotBeHeld) {
+  const std::array rods{snapping_strip(-0.02, {-3, 2, -1}, {-1, 3, 3}), snapping_strip(0.03, {-1, -3, -3}, {-1, -1, 0}),
+                        snapping_strip(0.02, {-3, -2, -1}, {1, -2, 2})};
+  for (const scene::Scene& rod : rods) {
+    const scene::Equilibrium limited = solve(rod);
+    ASSERT_TRUE(limited.limit) << limited.message;
+    const std::vector<scene::PathPoint> folds = points_of_kind(complete_path(load_growth(rod, 1)), Kind::fold);
+    ASSERT_FALSE(folds.empty());
+    EXPECT_NEAR(limited.limit->load_factor, folds[0].parameter, 1e-8);
+  }
 }
 
 // Beyond its fold the strip's path turns back, and the index rises by one.
