@@ -28,6 +28,9 @@ class BandSystem {
 
   void set_zero() { SUNMatZero(matrix_); }
   double& entry(long row, long column) { return SM_ELEMENT_B(matrix_, row, column); }
+  long size() const { return SM_COLUMNS_B(matrix_); }
+  long upper() const { return SM_UBAND_B(matrix_); }
+  long lower() const { return SM_LBAND_B(matrix_); }
   bool factorise() { return SUNLinSolSetup(solver_, matrix_) == 0; }  // false: singular
 
   // The determinant of the matrix last factorised: its sign, of the pivots and of the row exchanges, and the logarithm

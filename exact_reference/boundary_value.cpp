@@ -1,8 +1,9 @@
 #include "exact_reference/boundary_value.h"
 
+#include "exact_reference/limit.h"
+#include "exact_reference/shape.h"
 #include "exact_reference/shooting.h"
 #include "exact_reference/stability.h"
-#include "exact_reference/stations.h"
 #include "scene/branch_watch.h"
 
 #include <Eigen/Geometry>
@@ -23,7 +24,6 @@ constexpr double first_turn_rad = 0.1;
 constexpr int most_load_steps = 3000;
 constexpr double most_work = 300'000;         // intervals linearised: seconds
 constexpr double most_rest_turn_rad = 1e4;    // two intervals a radian, and so seconds, too
-constexpr double collapsed_tangent = 1e-4;    // of a tendon where the load cannot grow
 constexpr double longest_step_on_way = 0.05;  // loads that turn back pass where branches meet; chosen, not measured
 constexpr double smallest_step = 1e-8;        // of the load reached or of the first step, whichever is larger
 
@@ -156,10 +156,6 @@ bool follow_load(Path& path) {
   return true;
 }
 
-bool has_energy(const ScaledRod& rod) {
-  return !rod.has_follower_load() && !rod.has_fixed_moment();
-}
-
 // The path stands under the loads that the rod had, and will go from there to its own.
 bool start_stage(Path& path, const ScaledRod& rod) {
   path.load = 0;
@@ -199,52 +195,12 @@ double solve_accurately(Path& path, double tolerance) {
   return change + roundoff + (update > undetermined ? update : 0);
 }
 
-std::vector<PlacedState> node_states(const ScaledRod& rod, const Path& path) {
-  const Mesh& mesh = path.shooting.mesh();
-  std::vector<PlacedState> states{{0, path.y[0]}};
-  for (std::size_t i = 0; i < mesh.size(); ++i) {
-    const double span_end = rod.spans[static_cast<std::size_t>(mesh[i].span)].end;
-    states.push_back({mesh[i].ends_span ? span_end : mesh[i + 1].start, path.y[i + 1]});
-  }
-  return states;
-}
-
-// Each by a step of its own from the node before it, so that it is as accurate as the nodes.
-std::vector<PlacedState> states_at(const std::vector<double>& places, const ScaledRod& rod, const Path& path) {
-  const Mesh& mesh = path.shooting.mesh();
-  std::vector<PlacedState> states{{0, path.y[0]}};
-  std::size_t i = 0;
-  for (std::size_t k = 1; k < places.size(); ++k) {
-    while (i + 1 < mesh.size() && places[k] > mesh[i + 1].start) ++i;
-    State y = path.y[i + 1];
-    if (!(mesh[i].ends_span && places[k] >= rod.spans[static_cast<std::size_t>(mesh[i].span)].end)) {
-      y = runge_kutta_step(path.shooting.equations(i, 1), path.shooting.start_state(path.y, 1, i),
-                           places[k] - mesh[i].start);
-    }
-    states.push_back({places[k], y});
-  }
-  return states;
-}
-
 void set_stability(scene::Equilibrium& result, const ScaledRod& rod, const Path& path) {
-  if (!has_energy(rod)) return;  // not conservative: energy does not decide
+  if (!rod.has_energy()) return;  // not conservative: energy does not decide
   const std::optional<int> falling = falling_directions(path.shooting, path.y);
   if (!falling) return;
   result.stable = *falling == 0;
   result.model.emplace_back("falling_directions", *falling);
-}
-
-// |v + u x r|, the least at a node.
-double shortest_tendon_tangent(const ScaledRod& rod, const Path& path) {
-  double shortest = HUGE_VAL;
-  for (std::size_t i = 0; i < path.shooting.mesh().size(); ++i) {
-    const ScaledSpan& span = rod.spans[static_cast<std::size_t>(path.shooting.mesh()[i].span)];
-    const Strains strains = path.shooting.equations(i, path.load).strains(path.y[i + 1]);
-    for (const ScaledTendon& tendon : span.tendons) {
-      shortest = std::min(shortest, (strains.stretch_S + strains.curvature_S.cross(tendon.arm_S)).norm());
-    }
-  }
-  return shortest;
 }
 
 double rest_turn_rad(const ScaledRod& rod) {
@@ -264,19 +220,23 @@ scene::Equilibrium stopped(const ScaledRod& rod, const Path& path) {
   result.status = scene::Status::load_step_too_small;
   result.message =
       text("no equilibrium found next to the one at %.6g of the load: a fold, or too large a load", path.load);
-  if (path.tendon_collapsed || shortest_tendon_tangent(rod, path) < collapsed_tangent) {
+  if (path.tendon_collapsed || tendon_has_collapsed(rod, path.shooting, path.y, path.load)) {
     result.status = scene::Status::tendon_collapsed;
     result.message = text("the path of a tendon has no length somewhere beyond %.6g of the load", path.load);
   } else if (path.exhausted() || path.steps > most_load_steps) {
     result.status = scene::Status::work_limit;
     result.message = text("given up at %.6g of the load: a rod that turns so much takes too many steps", path.load);
+  } else if (const auto fold = fold_ahead(rod, {path.shooting.mesh(), path.y}, path.load)) {
+    result.status = scene::Status::limit_point;
+    result.message = text("snaps at %.1f %% of the load", 100 * *fold);
+    result.limit = {*fold, scene::PathPoint::Kind::fold};
   }
   return result;
 }
 
 }  // namespace
 
-scene::Equilibrium solve_boundary_value(std::span<const ScaledRod> way, double tolerance) {
+scene::Equilibrium solve_boundary_value(std::span<const ScaledRod> way, double tolerance, MeshedStates* reached) {
   scene::Equilibrium result;
   ScaledRod rod = way.front();
   if (!(rest_turn_rad(rod) <= most_rest_turn_rad)) {
@@ -288,13 +248,14 @@ scene::Equilibrium solve_boundary_value(std::span<const ScaledRod> way, double t
   path.y = path.shooting.unloaded();
   if (way.size() > 1) path.longest_step = longest_step_on_way;
   for (const ScaledRod& stage : way) {
-    const bool first = &stage == &way.front(), had_energy = first || has_energy(rod);
+    const bool first = &stage == &way.front(), had_energy = first || rod.has_energy();
     rod = stage;
     if (!start_stage(path, rod)) return stopped(rod, path);
     path.watch_stability =
-        had_energy && has_energy(rod) && (first || falling_directions(path.shooting, path.y, 0).value_or(0) == 0);
+        had_energy && rod.has_energy() && (first || falling_directions(path.shooting, path.y, 0).value_or(0) == 0);
     if (!follow_load(path)) return stopped(rod, path);
   }
+  if (reached != nullptr) *reached = {path.shooting.mesh(), path.y};
   const double error = solve_accurately(path, tolerance);
   if (error < 0 && path.exhausted()) return stopped(rod, path);
   const double worst_error = std::max(1e-6, tolerance);  // beyond it the answer is not worth its name
@@ -305,9 +266,7 @@ scene::Equilibrium solve_boundary_value(std::span<const ScaledRod> way, double t
     return result;
   }
   result.status = scene::Status::converged;
-  const std::vector<PlacedState> nodes = node_states(rod, path);
-  set_shape(result, rod, states_at(station_places(rod, turns_of(rod, nodes)), rod, path));
-  result.tendon_shortening_mm = tendon_shortening_mm(rod, nodes);
+  set_shape(result, rod, path.shooting, path.y);
   result.error_estimate_mm = error * rod.length_mm;
   result.model.emplace_back("intervals", static_cast<int>(path.shooting.mesh().size()));
   result.model.emplace_back("unknowns", core_size * static_cast<int>(path.y.size()));

@@ -171,16 +171,20 @@ ScaledRod scaled_rod(const scene::Scene& scene, RodModel model) {
   return rod;
 }
 
+ScaledRod scaled_rod(const scene::Scene& scene, const scene::SpanCutter& cutter, RodModel model) {
+  scene::Reused<scene::Span> spans;
+  cutter.fill(scene, spans);
+  return scaled(scene, spans, model);
+}
+
 std::vector<ScaledRod> scaled_way(std::span<const scene::Scene> scenes, RodModel model) {
   std::vector<const scene::Scene*> all;
   for (const scene::Scene& scene : scenes) all.push_back(&scene);
   scene::SpanCutter cutter;
   cutter.cut(all);
   std::vector<ScaledRod> rods;
-  scene::Reused<scene::Span> spans;
   for (const scene::Scene& scene : scenes) {
-    cutter.fill(scene, spans);
-    rods.push_back(scaled(scene, spans, model));
+    rods.push_back(scaled_rod(scene, cutter, model));
     if (rods.size() == 1) continue;
     ScaledRod& before = rods[rods.size() - 2];
     start_from(rods.back(), before);

@@ -62,12 +62,16 @@ struct ScaledRod {
   double load_size() const;
   bool has_fixed_load() const;  // any load with components in the base frame, gravity included
   bool has_tendon() const;
-  bool has_fixed_moment() const;     // not conservative in space
-  bool has_follower_load() const;    // not conservative
-  bool shears_or_stretches() const;  // any shear compliance that is not 0
+  bool has_fixed_moment() const;                                                   // not conservative in space
+  bool has_follower_load() const;                                                  // not conservative
+  bool has_energy() const { return !has_follower_load() && !has_fixed_moment(); }  // loads are conservative
+  bool shears_or_stretches() const;                                                // any shear compliance that is not 0
 };
 
 ScaledRod scaled_rod(const scene::Scene& scene, RodModel model);
+// One of scenes that differ in the values of their loads or in their rest curvatures: with the cuts that the cutter has
+// made in one of them, in the scene's own axes.
+ScaledRod scaled_rod(const scene::Scene& scene, const scene::SpanCutter& cutter, RodModel model);
 // Scenes that differ in their loads alone, not in their kinds: each rod's loads grow from those of the one before, the
 // first one's from none. With one scene's cuts as with all's.
 std::vector<ScaledRod> scaled_way(std::span<const scene::Scene> scenes, RodModel model);

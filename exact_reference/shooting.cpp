@@ -46,6 +46,8 @@ Shooting::Shooting(const ScaledRod& rod, int minimum) : rod_(rod) {
   }
 }
 
+Shooting::Shooting(const ScaledRod& rod, Mesh mesh) : rod_(rod), mesh_(std::move(mesh)) {}
+
 Shooting::~Shooting() = default;
 
 RodEquations Shooting::equations(std::size_t i, double load_factor) const {
@@ -84,15 +86,15 @@ Core Shooting::weights(const NodeStates& y) const {
   return weight;
 }
 
-std::vector<Core> Shooting::residual(const NodeStates& y, double load_factor) const {
-  const std::size_t n = mesh_.size();
-  std::vector<Core> r(n + 1);
-  for (std::size_t i = 0; i < n; ++i) {
+Eigen::VectorXd Shooting::residual(const NodeStates& y, double load_factor, const Core& weight) const {
+  const long n = static_cast<long>(mesh_.size());
+  Eigen::VectorXd r(core_size * (n + 1));
+  r.head<clamp_rows>() = y[0].head<clamp_rows>() - Eigen::Vector4d::Unit(0);
+  for (long i = 0; i < n; ++i) {
     const State end = runge_kutta_step(equations(i, load_factor), start_state(y, load_factor, i), mesh_[i].length);
-    r[i] = (end - y[i + 1]).head<core_size>();
+    r.segment<core_size>(clamp_rows + core_size * i) = (end - y[i + 1]).head<core_size>().cwiseProduct(weight);
   }
-  r[n] = start_state(y, load_factor, n).head<core_size>();  // rows 4 to 9 are the conditions at the tip
-  r[n].head<4>() = y[0].head<4>() - Eigen::Vector4d::Unit(0);
+  r.tail<6>() = start_state(y, load_factor, n).segment<6>(4).cwiseProduct(weight.tail<6>());
   return r;
 }
 
@@ -172,9 +174,7 @@ Convergence Shooting::newton(NodeStates& y, double load_factor, double tolerance
     ++result.iterations;
     const Core weight = weights(y);
     const NodeStates before = y;
-    if (!band_) band_ = band_system(all_components, mesh_.size());
-    volume_changes_.resize(mesh_.size());
-    assemble(*band_, all_components, y, load_factor, weight, &volume_changes_);
+    newton_equations(y, load_factor, weight);
     if (!band_->factorise() || !band_->solve()) {
       result.tendon_collapsed = tendon_collapses(y, load_factor);
       return result;
@@ -201,21 +201,23 @@ Convergence Shooting::newton(NodeStates& y, double load_factor, double tolerance
   return result;
 }
 
+BandSystem& Shooting::newton_equations(const NodeStates& y, double load_factor, const Core& weight) {
+  if (!band_) band_ = band_system(all_components, mesh_.size());
+  volume_changes_.resize(mesh_.size());
+  assemble(*band_, all_components, y, load_factor, weight, &volume_changes_);
+  return *band_;
+}
+
 std::vector<Core> Shooting::tangent(const NodeStates& y, double load_factor) {
   constexpr double step = 1e-4;  // the residual is almost linear in the load factor
-  const std::vector<Core> above = residual(y, load_factor + step), below = residual(y, load_factor - step);
   const Core weight = weights(y);
-  if (!band_) band_ = band_system(all_components, mesh_.size());
-  assemble(*band_, all_components, y, load_factor, weight);
+  const Eigen::VectorXd above = residual(y, load_factor + step, weight),
+                        below = residual(y, load_factor - step, weight);
+  newton_equations(y, load_factor, weight);
   std::vector<Core> result(y.size(), Core::Zero());
   if (!band_->factorise()) return result;
   double* x = band_->vector();
-  std::fill(x, x + clamp_rows, 0.0);
-  for (std::size_t k = 0; k < y.size(); ++k) {
-    const Core slope = weight.cwiseProduct(below[k] - above[k]) / (2 * step);
-    const bool tip = k + 1 == y.size();
-    std::copy(slope.data() + (tip ? 4 : 0), slope.data() + core_size, x + clamp_rows + core_size * k);
-  }
+  Eigen::Map<Eigen::VectorXd>(x, above.size()) = (below - above) / (2 * step);
   if (!band_->solve()) return result;
   for (std::size_t k = 0; k < y.size(); ++k) {
     result[k] = Eigen::Map<const Core>(x + core_size * k).cwiseQuotient(weight);
@@ -224,9 +226,13 @@ std::vector<Core> Shooting::tangent(const NodeStates& y, double load_factor) {
 }
 
 scene::Determinant Shooting::determinant(const NodeStates& y, double load_factor) const {
+  return determinant(y, load_factor, rod_.symmetry);
+}
+
+scene::Determinant Shooting::determinant(const NodeStates& y, double load_factor, scene::Symmetry plane) const {
   std::span<const int> components = all_components;
-  if (rod_.symmetry == scene::Symmetry::plane_xy) components = components_in_xy;
-  if (rod_.symmetry == scene::Symmetry::plane_xz) components = components_in_xz;
+  if (plane == scene::Symmetry::plane_xy) components = components_in_xy;
+  if (plane == scene::Symmetry::plane_xz) components = components_in_xz;
   const std::unique_ptr<BandSystem> band = band_system(components, mesh_.size());
   assemble(*band, components, y, load_factor, weights(y));
   band->factorise();

@@ -25,6 +25,11 @@ using Mesh = std::vector<Interval>;
 // States at the nodes, mesh.size() + 1 of them. At a span's end: the state before its point loads.
 using NodeStates = std::vector<State>;
 
+struct MeshedStates {
+  Mesh mesh;
+  NodeStates y;
+};
+
 struct Convergence {
   bool converged = false;
   bool tendon_collapsed = false;  // given up because a tendon's path has no length somewhere
@@ -38,6 +43,8 @@ class Shooting {
  public:
   // At least one interval a span and `minimum` in all, at most half a radian of rest curvature an interval.
   Shooting(const ScaledRod& rod, int minimum);
+  // On a mesh of a rod that has the same spans.
+  Shooting(const ScaledRod& rod, Mesh mesh);
   ~Shooting();
   Shooting(const Shooting&) = delete;
   Shooting& operator=(const Shooting&) = delete;
@@ -62,6 +69,14 @@ class Shooting {
   // Of the equations' derivatives, as they act on motions in the plane of the rod's symmetry if there is one. It does
   // not depend on the mesh; its sign differs from one branch to the next.
   scene::Determinant determinant(const NodeStates& y, double load_factor) const;
+  // The same for motions in this plane, or for all; the states lie in it.
+  scene::Determinant determinant(const NodeStates& y, double load_factor, scene::Symmetry plane) const;
+
+  // Newton's matrix and its residual (the system's vector), unknowns and equations multiplied by `weight`.
+  BandSystem& newton_equations(const NodeStates& y, double load_factor, const Core& weight);
+  // The residual alone, and the weights that newton() takes.
+  Eigen::VectorXd residual(const NodeStates& y, double load_factor, const Core& weight) const;
+  Core weights(const NodeStates& y) const;  // 1 for q, 1/(1 + largest) for N and M
 
   // Sets the positions, which Newton's unknowns do not hold.
   void integrate_positions(NodeStates& y, double load_factor) const;
@@ -94,11 +109,9 @@ class Shooting {
   double work() const { return work_; }
 
  private:
-  Core weights(const NodeStates& y) const;  // 1 for q, 1/(1 + largest) for N and M
   void assemble(BandSystem& band, std::span<const int> components, const NodeStates& y, double load_factor,
                 const Core& weight, std::vector<double>* volume_changes = nullptr) const;
   bool tendon_collapses(const NodeStates& y, double load_factor) const;
-  std::vector<Core> residual(const NodeStates& y, double load_factor) const;
   double local_error(const NodeStates& y, double load_factor, const Core& weight, std::size_t i) const;
   void split(NodeStates& y, double load_factor, const std::vector<int>& parts);
 

@@ -4,15 +4,12 @@
 #include "exact_reference/initial_value.h"
 
 namespace exact_reference {
-namespace {
 
 void check(const Options& options) {
   if (!(options.tolerance >= 1e-13 && options.tolerance <= 1e-3)) {
     throw scene::SceneError("options: tolerance = " + std::to_string(options.tolerance) + ": must be 1e-13 to 1e-3");
   }
 }
-
-}  // namespace
 
 scene::Equilibrium solve(const scene::Scene& scene, const Options& options) {
   check(options);

@@ -22,15 +22,18 @@ struct Options {
   Way way = Way::automatic;
 };
 
+// Throws scene::SceneError if an option is out of its range.
+void check(const Options& options);
+
 // The equilibrium that the rod reaches when its loads (tendons included) grow together from zero.
 //
 // stable: decided for fixed forces, distributed fixed forces, gravity and tendons, by the second variation
 // (stability.h); empty under follower loads and fixed moments, which are not conservative in space, and where it is
 // neutral.
 //
-// Statuses: load_step_too_small, work_limit, tendon_collapsed, not_converged (boundary_value.h, initial_value.h),
-// unsupported.
-// Throws scene::SceneError if an option is out of its range. The scene must be valid.
+// Statuses: limit_point (with its load factor), load_step_too_small, work_limit, tendon_collapsed, not_converged
+// (boundary_value.h, initial_value.h), unsupported. Throws scene::SceneError if an option is out of its range. The
+// scene must be valid.
 scene::Equilibrium solve(const scene::Scene& scene, const Options& options = {});
 
 // The equilibrium that the rod reaches when its loads go in a straight line from zero to those of the first scene, from

@@ -33,7 +33,7 @@ IntervalForm interval_form(const State& start, const State& end, const CoreMatri
 
 }  // namespace
 
-std::optional<int> falling_directions(const Shooting& shooting, const NodeStates& y, double load) {
+std::optional<int> falling_directions(const Shooting& shooting, const NodeStates& y, double load, bool turns_freely) {
   constexpr double epsilon = 2.2e-16;
   const double intervals = static_cast<double>(shooting.mesh().size());
   const std::vector<double>& errors = shooting.volume_changes();
@@ -47,7 +47,13 @@ std::optional<int> falling_directions(const Shooting& shooting, const NodeStates
     const Matrix3d pivot = form.end_end + beyond;
     // Measured by the interval's own form, so that stiff and soft axes count alike; signs are the same (Sylvester).
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix3d> eigen(pivot, form.end_end, Eigen::EigenvaluesOnly);
-    const Eigen::Vector3d& values = eigen.eigenvalues();
+    Eigen::Vector3d values = eigen.eigenvalues();
+    // No pivot before the last is singular, so that the form's zero is the last one's.
+    if (turns_freely && i == 0) {
+      Eigen::Index free = 0;
+      values.cwiseAbs().minCoeff(&free);
+      values[free] = 1;
+    }
     const Eigen::Vector3d own = form.end_end.selfadjointView<Eigen::Lower>().eigenvalues();
     const double neutral = unresolved + 16 * intervals * epsilon * std::abs(own[1] / own[0]);
     if (!values.allFinite() || !(values.cwiseAbs().minCoeff() >= neutral)) return std::nullopt;

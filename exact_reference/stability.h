@@ -16,6 +16,9 @@ namespace exact_reference {
 // to clamp; where fixed forces act off the centreline, the form of their lever arms is added. Their number is that of
 // the conjugate points in (0, L]. Intervals must be short enough to hold none themselves. Only for scenes without
 // follower loads and fixed moments; `y` must be an equilibrium of `shooting`'s mesh under `load` times the loads.
-std::optional<int> falling_directions(const Shooting& shooting, const NodeStates& y, double load = 1);
+//
+// turns_freely: one direction is known to cost nothing and is left out.
+std::optional<int> falling_directions(const Shooting& shooting, const NodeStates& y, double load = 1,
+                                      bool turns_freely = false);
 
 }  // namespace exact_reference

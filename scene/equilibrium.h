@@ -1,6 +1,8 @@
 // What every method returns.
 #pragma once
 
+#include "scene/path.h"
+
 #include <Eigen/Core>
 
 #include <optional>
@@ -46,6 +48,12 @@ const char* name(Status status);
 // A fact about the model that was used, for the reader of a result ("arcs" = 12).
 using Fact = std::pair<std::string, std::variant<bool, int, double, std::string>>;
 
+// Where growing loads meet the end of their branch of equilibria.
+struct Limit {
+  double load_factor = 0;
+  PathPoint::Kind kind = PathPoint::Kind::fold;
+};
+
 // Static equilibrium of a scene. Only a converged one has a shape: otherwise `stations` is empty.
 struct Equilibrium {
   Status status = Status::not_converged;
@@ -56,6 +64,7 @@ struct Equilibrium {
   std::optional<bool> stable;     // empty: not decided
   // How much of each of the scene's tendons leaves through the clamp: int |e_x + u0 x r| ds - int |v + u x r| ds.
   std::vector<double> tendon_shortening_mm;
+  std::optional<Limit> limit;  // of status limit_point, where it was located
   std::vector<Fact> model;
 
   bool converged() const { return status == Status::converged; }

@@ -62,7 +62,7 @@ class RandomScenes {
 };
 
 struct Outcome {
-  int converged = 0, load_step_too_small = 0, not_converged = 0;
+  int converged = 0, limit_point = 0, not_converged = 0;
   int broken_promises = 0;  // true error above the estimate
   double largest_error = 0, largest_ratio = 0;
   double worst_estimate = 0;
@@ -76,7 +76,7 @@ Outcome run(int scenes, double largest, double tolerance) {
     const scene::Scene rod = random.next(largest);
     const scene::Equilibrium result = exact_reference::solve(
         rod, {exact_reference::RodModel::reissner, tolerance, exact_reference::Way::boundary_value});
-    outcome.load_step_too_small += result.status == scene::Status::load_step_too_small;
+    outcome.limit_point += result.status == scene::Status::limit_point;
     outcome.not_converged += result.status == scene::Status::not_converged;
     if (!result.converged()) continue;
     ++outcome.converged;
@@ -93,10 +93,10 @@ Outcome run(int scenes, double largest, double tolerance) {
     outcome.largest_ratio = std::max(outcome.largest_ratio, error / (estimate + truth_estimate));
   }
   std::printf(
-      "%d scenes, loads to %g, tolerance %g: %d converged, %d fold or load step, %d not; largest error %.2g L, "
+      "%d scenes, loads to %g, tolerance %g: %d converged, %d at a fold, %d not; largest error %.2g L, "
       "estimate %.2g L, error over estimate %.2g\n",
-      scenes, largest, tolerance, outcome.converged, outcome.load_step_too_small, outcome.not_converged,
-      outcome.largest_error, outcome.worst_estimate, outcome.largest_ratio);
+      scenes, largest, tolerance, outcome.converged, outcome.limit_point, outcome.not_converged, outcome.largest_error,
+      outcome.worst_estimate, outcome.largest_ratio);
   return outcome;
 }
 
