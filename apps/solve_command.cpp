@@ -86,11 +86,15 @@ CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments) {
                      "Write a picture of the deformed centreline to this file");
   solve->add_flag("--derivatives", arguments.derivatives,
                   "Add the tip's derivatives by loads, sections and a wrench at the tip to --format json");
+  solve->add_flag("--after-snap", options.after_snap,
+                  "Where the rod snaps: the next stable equilibrium under the full load");
   solve->callback([solve, &options, &arguments] {
     if (arguments.derivatives && (arguments.format != "json" || arguments.method != "fam"))
       throw CLI::ValidationError("--derivatives", "needs --format json and the method fam");
     if (arguments.derivatives && options.law == fam::Law::published)
       throw CLI::ValidationError("--derivatives", "the law published has none");
+    if (options.after_snap && arguments.method != "fam")
+      throw CLI::ValidationError("--after-snap", "needs the method fam");
     if (solve->count("--twist-order") > 0 && options.law != fam::Law::published)
       throw CLI::ValidationError("--twist-order", "needs --law published");
   });

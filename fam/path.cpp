@@ -6,6 +6,7 @@ namespace fam {
 namespace {
 
 constexpr int most_points = 20'000;  // of a path with its branches; chosen, not measured
+constexpr int fewest_places = 60;    // of a centreline
 constexpr int fewest_steps = 20;     // through the range, where the largest is not given
 
 PathWalk::Settings settings_for(const scene::PathRequest& request) {
@@ -58,8 +59,8 @@ const scene::Path& Path::points() const {
 std::vector<Eigen::Vector3d> Path::centreline_mm(std::size_t point) const {
   PathStepper& stepper = impl_->walk.stepper();
   const PathPlace place = stepper.restored(impl_->walk.places().at(point));
-  stepper.equations().set_parameter(place.state.parameter);
-  return stepper.equations().positions_mm(place.state);
+  const int arcs = stepper.equations().rod().arc_count();
+  return stepper.equations().centreline_mm(place.state, 1 + fewest_places / arcs);
 }
 
 }  // namespace fam

@@ -101,23 +101,50 @@ static int carried_end(int end_arc, std::span<const int> from, std::span<const i
   return result;
 }
 
-PathState PathEquations::carried_over(const PathState& state, const PathMesh& from_mesh) {
-  set_parameter(state.parameter);
-  std::vector<SectionState<3>> ends(static_cast<std::size_t>(rod().arc_count()));  // of the arcs
-  for (std::size_t k = from_mesh.segments.size(); k-- > 0;) {
-    const auto here = [&](int arc) { return carried_end(arc, from_mesh.arcs, mesh_.arcs); };
-    const ArcRange range{here(from_mesh.segments[k].first_arc), here(from_mesh.segments[k].end_arc)};
-    SectionState<3> at = state.nodes[k];
+// The states at the arcs' distal ends, without the point loads there, from those at the ends of these segments.
+static std::vector<SectionState<3>> states_at_ends(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
+                                                   const std::vector<SectionState<3>>& nodes) {
+  std::vector<SectionState<3>> ends(static_cast<std::size_t>(rod.arc_count()));
+  for (std::size_t k = segments.size(); k-- > 0;) {
+    const ArcRange& range = segments[k];
+    SectionState<3> at = nodes[k];
     ends[static_cast<std::size_t>(range.end_arc - 1)] = at;
-    rod().march(range, at, [&](int arc, const auto&, const auto&, const SectionState<3>& arrived) {
+    rod.march(range, at, [&](int arc, const auto&, const auto&, const SectionState<3>& arrived) {
       if (arc > range.first_arc) ends[static_cast<std::size_t>(arc - 1)] = arrived;
     });
   }
+  return ends;
+}
+
+PathState PathEquations::carried_over(const PathState& state, const PathMesh& from_mesh) {
+  set_parameter(state.parameter);
+  std::vector<ArcRange> segments = from_mesh.segments;
+  for (ArcRange& segment : segments) {
+    segment = {carried_end(segment.first_arc, from_mesh.arcs, mesh_.arcs),
+               carried_end(segment.end_arc, from_mesh.arcs, mesh_.arcs)};
+  }
+  const std::vector<SectionState<3>> ends = states_at_ends(rod(), segments, state.nodes);
   PathState result{{}, state.parameter};
   for (const ArcRange& segment : mesh_.segments) {
     result.nodes.push_back(ends[static_cast<std::size_t>(segment.end_arc - 1)]);
   }
   return result;
+}
+
+std::vector<SectionState<3>> PathEquations::states(const PathState& state) {
+  return states_at_ends(rod(), mesh_.segments, state.nodes);
+}
+
+std::vector<Vector3d> PathEquations::centreline_mm(const PathState& state, int finer_times) {
+  set_parameter(state.parameter);
+  std::vector<int> arcs = mesh_.arcs;
+  for (int& count : arcs) count *= finer_times;
+  std::vector<ArcRange> segments = mesh_.segments;
+  for (ArcRange& segment : segments) segment = {finer_times * segment.first_arc, finer_times * segment.end_arc};
+  LoadedRod<3> finer;
+  finer.set(rod().way(), arcs, rod().law(), rod().model());
+  Placed placed;
+  return place(finer, segments, state.nodes, placed);
 }
 
 void PathEquations::set_parameter(double parameter) {

@@ -117,6 +117,9 @@ class PathEquations {
     Vector3d tip_position_B_mm = Vector3d::Zero();
   };
   Accuracy accuracy(const PathState& state);
+  // At the arcs' distal ends, without the point loads there; finer_times the arcs, for pictures.
+  std::vector<SectionState<3>> states(const PathState& state);
+  std::vector<Vector3d> centreline_mm(const PathState& state, int finer_times);
   void set_parameter(double parameter);
   void set_nodes(const PathState& state) { shooting_.set_nodes(state.nodes); }
   bool tendon_collapsed() const { return rod().tendon_collapsed(); }

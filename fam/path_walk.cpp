@@ -282,8 +282,7 @@ std::optional<PathWalk::Event> PathWalk::located(const PathPlace& from, const Pa
 // False: the path ends here.
 bool PathWalk::emit(const Event& event, int branch) {
   std::optional<PathStatus> status = event.end;
-  if (!status && event.kind == Kind::regular && settings_.ends_at_stop && settings_.ends_at_stop(event.place))
-    status = PathStatus::reached;
+  if (!status && settings_.ends_at && settings_.ends_at(event.place, event.kind)) status = PathStatus::reached;
   add(event.place, status ? Kind::end : event.kind, branch, event.multiplicity);
   if (event.kind == Kind::fold) stops_.push_back(event.place.state.parameter);
   if (event.kind == Kind::branch && static_cast<int>(forks_.size()) < settings_.branches)

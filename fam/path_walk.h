@@ -21,8 +21,8 @@ class PathWalk {
     std::vector<double> stops;
     int branches = 0;
     double largest_step = 0;  // of the parameter
-    // Where a stop ends the walk.
-    std::function<bool(const PathPlace&)> ends_at_stop;
+    // Whether a stop, a fold or a branch point ends the walk.
+    std::function<bool(const PathPlace&, scene::PathPoint::Kind)> ends_at;
     int most_points = 0;
   };
   PathWalk(const scene::PathRequest& request, const Options& options, const Settings& settings);
