@@ -26,18 +26,23 @@ studies::Axis axis_over(const std::string& label, const std::vector<double>& val
   return {label, *low - margin, *high + margin, false};
 }
 
-// Runs of points that are alike, each up to the first of the next.
+// From a point to the next: stable where both are, as a fold or a branch point is on the stable side.
+bool is_stable_after(const scene::Path& path, std::size_t i) {
+  return path.points[i].stable.value_or(true) && path.points[i + 1].stable.value_or(true);
+}
+
+// Runs that are alike.
 void draw_curve(const scene::Path& path, studies::Panel& panel) {
-  for (std::size_t i = 0; i + 1 < path.points.size();) {
-    std::vector<Point> run{point_of(path, i)};
-    const std::size_t first = i;
-    const bool stable = path.points[i + 1].stable.value_or(true);
-    while (i + 1 < path.points.size() && path.points[i + 1].branch == path.points[first].branch &&
-           path.points[i + 1].stable.value_or(true) == stable) {
-      run.push_back(point_of(path, ++i));
+  const auto goes_on = [&](std::size_t i) {
+    return i + 1 < path.points.size() && path.points[i + 1].branch == path.points[i].branch;
+  };
+  for (std::size_t i = 0; i < path.points.size(); ++i) {
+    while (goes_on(i)) {
+      const bool stable = is_stable_after(path, i);
+      std::vector<Point> run{point_of(path, i)};
+      while (goes_on(i) && is_stable_after(path, i) == stable) run.push_back(point_of(path, ++i));
+      panel.curve(run, {colour::black, 1.6, stable ? "" : "5 4"});
     }
-    if (run.size() > 1) panel.curve(run, {colour::black, 1.6, stable ? "" : "5 4"});
-    else ++i;
   }
 }
 
