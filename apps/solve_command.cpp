@@ -51,8 +51,14 @@ void add_choice(CLI::App* command, const std::string& option, Value& target, con
 
 }  // namespace
 
-void add_scene_and_options(CLI::App* command, std::string& scene_path, fam::Options& options) {
-  command->add_option("scene", scene_path, "Scene file (JSON), or - for standard input")->required();
+void add_output_options(CLI::App* command, std::string& format, std::string& svg_path, const std::string& picture) {
+  command->add_option("--format", format, "text, json or csv (default: text)")
+      ->check(CLI::IsMember({"text", "json", "csv"}));
+  command->add_option("--svg", svg_path, picture)->check(CLI::Validator(no_name, "FILE"));
+}
+
+void add_scene_and_options(CLI::App* command, std::string& scene_path, fam::Options& options, const std::string& what) {
+  command->add_option("scene", scene_path, what)->required();
   auto* tolerance = command->add_option("--tolerance-mm", options.tolerance_mm,
                                         "Largest error of any place along the rod, mm (default: 1e-3 of the length)");
   tolerance->check(CLI::Validator(not_positive, "> 0"));
@@ -76,17 +82,19 @@ CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments) {
   add_choice<fam::TwistOrder>(
       solve, "--twist-order", options.twist_order, "Published law: order of its rotations (default: bend_twist)",
       {{"bend_twist", fam::TwistOrder::bend_twist}, {"twist_bend", fam::TwistOrder::twist_bend}});
-  solve->add_option("--format", arguments.format, "text, json or csv (default: text)")
-      ->check(CLI::IsMember({"text", "json", "csv"}));
-  solve->add_option("--svg", arguments.svg_path, "Write a picture of the deformed centreline to this file")
-      ->check(CLI::Validator(no_name, "FILE"));
+  add_output_options(solve, arguments.format, arguments.svg_path,
+                     "Write a picture of the deformed centreline to this file");
   solve->add_flag("--derivatives", arguments.derivatives,
                   "Add the tip's derivatives by loads, sections and a wrench at the tip to --format json");
+  solve->add_flag("--after-snap", options.after_snap,
+                  "Where the rod snaps: the next stable equilibrium under the full load");
   solve->callback([solve, &options, &arguments] {
     if (arguments.derivatives && (arguments.format != "json" || arguments.method != "fam"))
       throw CLI::ValidationError("--derivatives", "needs --format json and the method fam");
     if (arguments.derivatives && options.law == fam::Law::published)
       throw CLI::ValidationError("--derivatives", "the law published has none");
+    if (options.after_snap && arguments.method != "fam")
+      throw CLI::ValidationError("--after-snap", "needs the method fam");
     if (solve->count("--twist-order") > 0 && options.law != fam::Law::published)
       throw CLI::ValidationError("--twist-order", "needs --law published");
   });

@@ -9,7 +9,8 @@
 // well, but passes below smallest_bifurcation_step if its symmetry can hold the rod there: in the plane, whose
 // determinant is that of motions in it alone, and on the axis (a column loaded exactly on its axis stays straight),
 // where none is watched. So the answer is the equilibrium that the rod reaches when its loads grow together from zero;
-// a snap-through ends in load_step_too_small.
+// a snap-through ends in load_step_too_small
+// (fam/limit.h tells more).
 #pragma once
 
 #include "fam/shooting.h"

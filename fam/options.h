@@ -29,6 +29,10 @@ struct Options {
   // the model; then the answer costs little beside the solve.
   bool whole_rod = true;
 
+  // Of fam::solve, where the growing load meets a fold: true, the next equilibrium under the full load on the rod's path
+  // that is stable (the next at all where the loads have no energy), in place of limit_point.
+  bool after_snap = false;
+
   // Of a Solver: arcs that memory is taken for, those of the estimate's finer run included, 1..max_arcs.
   int reserved_arcs = 1024;
 

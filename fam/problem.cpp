@@ -90,6 +90,12 @@ void Problem::set(const scene::Scene& scene, const Options& options, const Probl
   set_way(false);
 }
 
+void Problem::leave_plane() {
+  choice_.plane.reset();
+  choice_.rotation_BP.setIdentity();
+  set_way(false);
+}
+
 void Problem::set_way(bool from_no_load) {
   const auto prepared = [this](const scene::Reused<Span>& given, scene::Reused<Span>& solved) -> std::span<const Span> {
     if (choice_.plane) turn_into_plane(given, choice_, solved);

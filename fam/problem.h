@@ -21,6 +21,9 @@ class Problem {
   // They go on from those of another problem with the same sections and kinds of load.
   void set(const scene::Scene& scene, const Options& options, const Problem& before);
 
+  // Solved in space, wherever its loads lie.
+  void leave_plane();
+
   const scene::Scene& scene() const { return scene_; }
   const Options& options() const { return options_; }
   const Choice& choice() const { return choice_; }

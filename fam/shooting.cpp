@@ -349,6 +349,19 @@ scene::Determinant Shooting<D>::exact_determinant() {
   return determinant();
 }
 
+template <int D>
+typename Shooting<D>::SegmentEquations Shooting<D>::equations(std::size_t k, bool with_slopes) const {
+  if (!with_slopes) {
+    Node state = nodes_[k];
+    rod_.march(segments_[k], state);
+    return residual(k, state);
+  }
+  SegmentEquations result;
+  if (k + 1 == segments_.size()) evaluate_segment<rotations>(k, result);
+  else evaluate_segment<unknowns>(k, result);
+  return result;
+}
+
 template class Shooting<2>;
 template class Shooting<3>;
 

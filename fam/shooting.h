@@ -89,7 +89,7 @@ class Shooting {
   const std::vector<Node>& nodes() const { return nodes_; }
   void set_nodes(const std::vector<Node>& nodes) { nodes_ = nodes; }
 
- private:
+  // The equations by themselves, for those who solve them with a parameter (fam/path_equations.h).
   static constexpr int rotations = rotations_of(D);
   static constexpr int unknowns =
       2 * rotations + D;  // of a node: its rotation, force, moment; the tip's rotation alone
@@ -102,7 +102,18 @@ class Shooting {
     Eigen::Matrix<double, rotations, rotations> mismatch_slope;
     bool mismatch_is_small;  // a residual of half a turn vanishes too
   };
+  // Of segment k at the nodes as they are; with_slopes: the derivatives, too.
+  SegmentEquations equations(std::size_t k, bool with_slopes) const;
+  // The residual alone, of the state that a march of segment k arrives with.
+  SegmentEquations residual(std::size_t k, const Node& arrived) const {
+    SegmentEquations result;
+    set_residual(k, arrived, result);
+    return result;
+  }
+  double force_unit() const { return least_stiffness_Nmm2_ / (length_mm_ * length_mm_); }
+  double moment_unit() const { return least_stiffness_Nmm2_ / length_mm_; }
 
+ private:
   void cut_into_segments();
   void set_few_arcs();
   template <int N>
@@ -122,8 +133,6 @@ class Shooting {
   }
   double log_growth() const;
   double apply(const Eigen::Ref<const Eigen::VectorXd>& step);
-  double force_unit() const { return least_stiffness_Nmm2_ / (length_mm_ * length_mm_); }
-  double moment_unit() const { return least_stiffness_Nmm2_ / length_mm_; }
 
   LoadedRod<D> rod_;
   double newton_tolerance_ = 0;

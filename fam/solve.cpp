@@ -1,6 +1,7 @@
 #include "fam/solve.h"
 
 #include "fam/answer.h"
+#include "fam/limit.h"
 #include "scene/load_visitor.h"
 
 namespace fam {
@@ -44,21 +45,32 @@ std::string refusal(const Problem& problem) {
 
 namespace {
 
+// Where a load could not grow on, its path tells why.
+Equilibrium after_failure(const Problem& problem, const Run& run) {
+  const double reached = run.engine.load_factor();
+  const bool stuck = run.status == Status::load_step_too_small || run.status == Status::work_limit;
+  if (stuck && reached > 0) {
+    if (auto result = beyond_growth(problem.scene(), problem.options(), reached)) return *result;
+  }
+  return failure(run);
+}
+
 Equilibrium solve_fixed(const Problem& problem, Run& run, Run& spare, Run& another_spare) {
   run.solve(problem, scene::cells_per_span(problem.spans(), problem.options().arcs));
-  if (!run.converged()) return failure(run);
+  if (!run.converged()) return after_failure(problem, run);
   const ArcExtent extent = run.extent(problem);
   if (verdict(run.engine, problem.choice().law, extent) == Status::arc_not_converged)
     return too_long_for_series(extent);
   const double error_mm = problem.options().estimate_error ? estimate_by_doubling_mm(problem, run, spare)
                                                            : problem.choice().rod.left_out_mm;
-  return success(problem, run, error_mm, is_stable(problem, run, nullptr, spare, another_spare), "number of arcs given");
+  return success(problem, run, error_mm, is_stable(problem, run, nullptr, spare, another_spare),
+                 "number of arcs given");
 }
 
 Equilibrium solve_by_tolerance(const Problem& problem, Run& one, Run& another, Run& spare) {
   const Found found = solve_to_tolerance(problem, one, another);
   if (found.status == Status::tolerance_not_met) return tolerance_not_met(problem, *found.run, found.error_mm);
-  if (found.status != Status::converged) return failure(*found.run);
+  if (found.status != Status::converged) return after_failure(problem, *found.run);
   return success(problem, *found.run, found.error_mm, is_stable(problem, *found.run, found.other, *found.other, spare),
                  "fewest arcs found whose estimate meets the tolerance");
 }

@@ -10,6 +10,8 @@ namespace fam {
 
 // Solves a valid scene (scene::validate). Numerical trouble is a status, never an exception:
 //   unsupported        published law with a fixed or distributed load, with shear or EI_y != EI_z
+//   limit_point        the growing load meets a fold, where the rod snaps: `limit` tells where (fam/limit.h);
+//                      with Options::after_snap only if its path never comes back to the full load
 //   load_step_too_small, work_limit, not_converged   see fam/load_growth.h
 //   arc_not_converged  published law: see fam/published_arc.h; sixth_order with fixed arcs: an arc longer than its
 //                      series can resolve (fam/engine.h)

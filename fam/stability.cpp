@@ -14,30 +14,63 @@ int negative_eigenvalues(const Matrix3d& matrix) {
   return static_cast<int>((matrix.eigenvalues().real().array() < 0).count());
 }
 
+bool smallest_eigenvalue_is_negative(const Matrix3d& matrix) {
+  const Eigen::Vector3cd values = matrix.eigenvalues();
+  Eigen::Index smallest;
+  values.cwiseAbs().minCoeff(&smallest);
+  return values[smallest].real() < 0;
+}
+
 }  // namespace
 
 bool agree(const Stability& a, const Stability& b, double share) {
   return a.conjugate_points == b.conjugate_points && std::abs(a.log_determinant - b.log_determinant) < 0.25 * share;
 }
 
+namespace {
+
 // Fields of small motions that leave the tip free, started there with three turns of it, marched to the clamp and
-// made the identity at each arc's end: their turn over one arc has a negative eigenvalue for each conjugate point in
-// it.
-Stability stability(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
-                    std::span<const SectionState<3>> nodes) {
-  Stability result;
+// made the identity at each arc's end: visit(turn over the arc, whether it is the clamp's). Whether all was finite.
+template <class Visit>
+bool march_free_tip(const LoadedRod<3>& rod, std::span<const ArcRange> segments, std::span<const SectionState<3>> nodes,
+                    Visit&& visit) {
   Fields<3, 3> fields{Matrix3d::Identity(), Matrix3d::Zero(), Matrix3d::Zero()};
+  int arcs_left = segments.back().end_arc;
   for (std::size_t k = segments.size(); k-- > 0;) {
     SectionState<3> state = nodes[k];
     march_varied(rod, segments[k], state, fields, [&](const SectionState<3>&, Fields<3, 3>& f) {
-      result.conjugate_points += negative_eigenvalues(f.turn);
-      result.log_determinant += std::log(std::abs(f.turn.determinant()));
+      visit(f.turn, --arcs_left == 0);
       const Matrix3d inverse = f.turn.inverse();
       f = {Matrix3d::Identity(), f.force_N * inverse, f.moment_Nmm * inverse};
     });
   }
-  if (!(fields.force_N.allFinite() && fields.moment_Nmm.allFinite()))
-    result.log_determinant = std::numeric_limits<double>::quiet_NaN();
+  return fields.force_N.allFinite() && fields.moment_Nmm.allFinite();
+}
+
+}  // namespace
+
+// The turn over one arc has a negative eigenvalue for each conjugate point in it.
+Stability stability(const LoadedRod<3>& rod, std::span<const ArcRange> segments, std::span<const SectionState<3>> nodes,
+                    bool is_free) {
+  Stability result;
+  const bool finite = march_free_tip(rod, segments, nodes, [&](const Matrix3d& turn, bool at_clamp) {
+    result.conjugate_points += negative_eigenvalues(turn);
+    result.log_determinant += std::log(std::abs(turn.determinant()));
+    if (is_free && at_clamp && smallest_eigenvalue_is_negative(turn)) --result.conjugate_points;
+  });
+  if (!finite && !is_free) result.log_determinant = std::numeric_limits<double>::quiet_NaN();
+  return result;
+}
+
+CrossTurn cross_turn(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
+                     std::span<const SectionState<3>> nodes) {
+  CrossTurn result{1, 0};
+  march_free_tip(rod, segments, nodes, [&](const Matrix3d& turn, bool) {
+    const std::complex<double> across(turn(1, 1) + turn(2, 2), turn(2, 1) - turn(1, 2));
+    const double size = std::abs(across);
+    result.log_size += std::log(size / 2);
+    if (size > 0) result.direction *= across / size;
+  });
   return result;
 }
 

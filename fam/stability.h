@@ -4,6 +4,7 @@
 
 #include "fam/loaded_rod.h"
 
+#include <complex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -21,9 +22,20 @@ struct Stability {
 bool agree(const Stability& a, const Stability& b, double share = 1);
 
 // Of the equilibrium under the rod's present load whose segments start at these nodes (clamp to tip, fam/shooting.h).
-// Only for fixed forces, gravity and tendons (the caller's to check).
-Stability stability(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
-                    std::span<const SectionState<3>> nodes);
+// Only for fixed forces, gravity and tendons (the caller's to check). is_free: the rod may turn about its axis at no
+// cost; the small turn at the clamp that this makes is no conjugate point.
+Stability stability(const LoadedRod<3>& rod, std::span<const ArcRange> segments, std::span<const SectionState<3>> nodes,
+                    bool is_free = false);
+
+// Of a rod on its axis that nothing tells one direction across from another: the small turns at the clamp over those
+// of the free tip, about the axes y and z as one complex number. Its zeros are the double critical points, whatever
+// the loads; through one its sign changes.
+struct CrossTurn {
+  std::complex<double> direction;  // of size 1
+  double log_size = 0;
+};
+CrossTurn cross_turn(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
+                     std::span<const SectionState<3>> nodes);
 
 // Judges a rod along its load without allocating. A planar rod may buckle out of its plane and is judged in space:
 // there its arcs get constants of their own, but nothing is solved for again.

@@ -37,7 +37,7 @@ enum class Status {
   load_step_too_small,  // the load step was halved below the method's smallest
   not_converged,        // an iteration ended above its tolerance; the message gives both
   work_limit,           // the method's bound on load steps, marched arcs or intervals was used up
-  limit_point,          // the load path from the last solution ends in a fold, where it would snap (fam/solver.h)
+  limit_point,          // the loads meet a fold on their way, where the rod would snap
   tendon_collapsed,     // a tendon's path has no length somewhere, |v + u x r| = 0: its direction is not defined
   not_finite            // a pose or a wrench is NaN or infinite
 };
@@ -48,7 +48,7 @@ const char* name(Status status);
 // A fact about the model that was used, for the reader of a result ("arcs" = 12).
 using Fact = std::pair<std::string, std::variant<bool, int, double, std::string>>;
 
-// Where growing loads meet the end of their branch of equilibria.
+// Where growing loads meet the end of their branch of equilibria: a share of them, and what is there.
 struct Limit {
   double load_factor = 0;
   PathPoint::Kind kind = PathPoint::Kind::fold;

@@ -34,6 +34,7 @@ std::string triple(const Eigen::Vector3d& v) {
 std::string to_json(const Equilibrium& result, const std::string& method, double time_us) {
   Json json{{"method", method}, {"status", name(result.status)}};
   if (!result.message.empty()) json["message"] = result.message;
+  if (result.limit) json["limit"] = {{"load_factor", result.limit->load_factor}, {"kind", name(result.limit->kind)}};
   json["tip"] = nullptr;
   json["base"] = nullptr;
   json["centreline"] = Json::array();

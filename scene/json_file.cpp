@@ -1,7 +1,10 @@
 #include "scene/json_file.h"
 
-#include "scene/scene.h"
+#include "scene/scene_file.h"
 
+#include <filesystem>
+#include <fstream>
+#include <iostream>
 #include <set>
 #include <vector>
 
@@ -109,6 +112,27 @@ Json parse(const std::string& text, const std::string& source) {
     const std::string number = quote == std::string::npos ? "?" : what.substr(quote + 1, what.rfind('\'') - quote - 1);
     refuse(source, tracker.path(), number, "must be finite: the number does not fit a double");
   }
+}
+
+Json read_json(std::istream& input, const std::string& source) {
+  std::string text;
+  char block[1 << 16];
+  while (input.read(block, sizeof block), input.gcount() > 0) {
+    text.append(block, static_cast<std::size_t>(input.gcount()));
+    if (text.size() > max_scene_file_bytes) {
+      refuse(source, "", "(too large)", "a scene file has at most " + std::to_string(max_scene_file_bytes) + " bytes");
+    }
+  }
+  return parse(text, source);
+}
+
+void with_file(const std::string& path, const std::string& what,
+               const std::function<void(std::istream&, const std::string&)>& read) {
+  if (path == "-") return read(std::cin, "(standard input)");
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path))
+    throw SceneError(path + ": (file) = (unreadable): must be a readable " + what + " file");
+  read(file, path);
 }
 
 }  // namespace scene

@@ -29,8 +29,15 @@ struct PathRequest {
   std::optional<double> largest_step;  // between points, of the parameter
 };
 
+constexpr int max_path_branches = 1000;
+constexpr int max_path_steps = 100'000;  // through the range, of the largest length
+
 // The scene at a value of the parameter. Not validated: see validate().
 Scene scene_at(const PathRequest& request, double parameter);
+
+// Throws SceneError at the first rule that the request breaks, of the scene (at the path "scene") or of the path (at
+// "path"); `source` names the request in the message, usually its file.
+void validate(const PathRequest& request, const std::string& source = "path");
 
 struct PathPoint {
   enum class Kind { start, regular, fold, branch, end };

@@ -24,11 +24,12 @@ std::string text(const Eigen::MatrixBase<Vector>& values) {
 // Checks one scene; each check names the JSON path of the value it looks at.
 class Checker {
  public:
-  explicit Checker(const std::string& source) : source_(source) {}
+  Checker(const std::string& source, const std::string& path)
+      : source_(source), path_(path.empty() ? "" : path + ".") {}
 
   template <class Value>
   void require(bool rule_holds, const std::string& path, const Value& value, const std::string& rule) const {
-    if (!rule_holds) throw SceneError(source_ + ": " + path + " = " + text(value) + ": " + rule);
+    if (!rule_holds) throw SceneError(source_ + ": " + path_ + path + " = " + text(value) + ": " + rule);
   }
 
   void finite(const std::string& path, double value) const {
@@ -138,6 +139,7 @@ class Checker {
 
  private:
   const std::string& source_;
+  const std::string path_;  // before each path
   double length_mm_ = 0;
   bool has_mass_ = false;
   std::set<std::array<double, 2>> tendon_offsets_;
@@ -151,8 +153,8 @@ double length_mm(const Scene& scene) {
   return length;
 }
 
-void validate(const Scene& scene, const std::string& source) {
-  Checker(source).check(scene);
+void validate(const Scene& scene, const std::string& source, const std::string& path) {
+  Checker(source, path).check(scene);
 }
 
 }  // namespace scene

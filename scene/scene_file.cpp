@@ -1,13 +1,7 @@
 #include "scene/scene_file.h"
 
-#include "scene/json_file.h"
+#include "scene/json_node.h"
 #include "scene/load_visitor.h"
-
-#include <filesystem>
-#include <fstream>
-#include <initializer_list>
-#include <iostream>
-#include <iterator>
 
 namespace scene {
 namespace {
@@ -15,88 +9,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// A JSON value with its path, read key by key.
-class Node {
- public:
-  Node(const Json& json, std::string path, const std::string& source)
-      : json_(json), path_(std::move(path)), source_(source) {}
-
-  [[noreturn]] void refuse(const std::string& rule) const { scene::refuse(source_, path_, dump(json_), rule); }
-
-  void require_object() const {
-    if (!json_.is_object()) refuse("must be an object");
-  }
-
-  // Refuses anything but an object with these keys.
-  void allow_keys(std::initializer_list<const char*> keys) const {
-    require_object();
-    for (const auto& [key, value] : json_.items()) {
-      bool known = false;
-      std::string all;
-      for (const char* allowed : keys) {
-        known |= key == allowed;
-        all += (all.empty() ? "" : ", ") + std::string(allowed);
-      }
-      if (!known) scene::refuse(source_, join(path_, key), dump(value), "unknown key; known here: " + all);
-    }
-  }
-
-  bool has(const char* key) const { return json_.contains(key); }
-
-  Node at(const char* key) const {
-    if (!has(key)) scene::refuse(source_, join(path_, key), "(missing)", "the key is required");
-    return {json_.at(key), join(path_, key), source_};
-  }
-
-  std::vector<Node> items() const {
-    if (!json_.is_array()) refuse("must be an array");
-    std::vector<Node> nodes;
-    for (std::size_t i = 0; i < json_.size(); ++i) {
-      nodes.emplace_back(json_[i], path_ + "[" + std::to_string(i) + "]", source_);
-    }
-    return nodes;
-  }
-
-  double number(const std::string& rule = "must be a number") const {
-    if (!json_.is_number()) refuse(rule);
-    return json_.get<double>();
-  }
-
-  double number_or(const char* key, double otherwise) const { return has(key) ? at(key).number() : otherwise; }
-
-  std::string string() const {
-    if (!json_.is_string()) refuse("must be a string");
-    return json_.get<std::string>();
-  }
-
-  template <int Size>
-  Eigen::Matrix<double, Size, 1> vector() const {
-    if (!json_.is_array() || json_.size() != Size) refuse("must be an array of " + std::to_string(Size) + " numbers");
-    Eigen::Matrix<double, Size, 1> values;
-    for (int i = 0; i < Size; ++i) values[i] = items()[static_cast<std::size_t>(i)].number();
-    return values;
-  }
-
-  // A number for both axes, or [y, z].
-  Vector2d number_or_pair() const {
-    if (json_.is_number()) return Vector2d::Constant(number());
-    if (!json_.is_array()) refuse("must be a number or an array of 2 numbers");
-    return vector<2>();
-  }
-
-  bool is_tip() const { return json_ == "tip"; }
-
-  Frame frame() const {
-    if (json_ == "follower") return Frame::follower;
-    if (json_ == "fixed") return Frame::fixed;
-    refuse("must be \"follower\" or \"fixed\"");
-  }
-
- private:
-  const Json& json_;
-  std::string path_;
-  const std::string& source_;
-};
+using Node = JsonNode;
 
 Stiffness read_stiffness(const Node& node) {
   node.allow_keys({"bending_Nmm2", "torsion_Nmm2", "axial_N", "shear_N", "mass_per_length_kg_per_m"});
@@ -185,7 +98,9 @@ Load read_load(const Node& node, double length) {
   kind_node.refuse("must be " + names);
 }
 
-Scene read(const Node& node) {
+}  // namespace
+
+Scene scene_of(const JsonNode& node) {
   node.allow_keys({"title", "rod", "loads"});
   Scene scene;
   if (node.has("title")) scene.title = node.at("title").string();
@@ -199,29 +114,17 @@ Scene read(const Node& node) {
   return scene;
 }
 
-}  // namespace
-
 Scene read_scene(std::istream& input, const std::string& source) {
-  std::string text;
-  char block[1 << 16];
-  while (input.read(block, sizeof block), input.gcount() > 0) {
-    text.append(block, static_cast<std::size_t>(input.gcount()));
-    if (text.size() > max_scene_file_bytes) {
-      refuse(source, "", "(too large)", "a scene file has at most " + std::to_string(max_scene_file_bytes) + " bytes");
-    }
-  }
-  const Json json = parse(text, source);
-  Scene scene = read(Node(json, "", source));
+  const Json json = read_json(input, source);
+  Scene scene = scene_of(JsonNode(json, "", source));
   validate(scene, source);
   return scene;
 }
 
 Scene read_scene_file(const std::string& path) {
-  if (path == "-") return read_scene(std::cin, "(standard input)");
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
-    throw SceneError(path + ": (file) = (unreadable): must be a readable scene file");
-  return read_scene(file, path);
+  Scene scene;
+  with_file(path, "scene", [&](std::istream& input, const std::string& source) { scene = read_scene(input, source); });
+  return scene;
 }
 
 }  // namespace scene

@@ -1,0 +1,66 @@
+#include "fam/path.h"
+
+#include "fam/path_walk.h"
+
+namespace fam {
+namespace {
+
+constexpr int most_points = 20'000;  // of a path with its branches; chosen, not measured
+constexpr int fewest_places = 60;    // of a centreline
+constexpr int fewest_steps = 20;     // through the range, where the largest is not given
+
+PathWalk::Settings settings_for(const scene::PathRequest& request) {
+  PathWalk::Settings settings;
+  const auto [low, high] = std::minmax(request.from, request.to);
+  settings.range = {low, high, high - low};
+  settings.from = request.from;
+  settings.to = request.to;
+  settings.stops = request.stop_at;
+  settings.branches = request.branches;
+  settings.largest_step = request.largest_step.value_or((high - low) / fewest_steps);
+  settings.most_points = most_points;
+  return settings;
+}
+
+}  // namespace
+
+struct Path::Impl {
+  scene::PathRequest request;
+  Options options;
+  mutable PathWalk walk;
+
+  Impl(const scene::PathRequest& r, const Options& o) : request(r), options(o), walk(r, o, settings_for(r)) {}
+};
+
+Path::Path(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Path::Path(Path&&) noexcept = default;
+Path& Path::operator=(Path&&) noexcept = default;
+Path::~Path() = default;
+
+Path Path::follow(const scene::PathRequest& request, const Options& options) {
+  scene::validate(request);
+  auto impl = std::make_unique<Impl>(request, options);
+  impl->walk.run();
+  return Path(std::move(impl));
+}
+
+Path Path::follow_on(const scene::PathRequest& request, const Path& from, std::size_t point, bool back,
+                     const Options& options) {
+  scene::validate(request);
+  auto impl = std::make_unique<Impl>(request, options);
+  impl->walk.run_from(from.impl_->walk.places().at(point), back);
+  return Path(std::move(impl));
+}
+
+const scene::Path& Path::points() const {
+  return impl_->walk.path();
+}
+
+std::vector<Eigen::Vector3d> Path::centreline_mm(std::size_t point) const {
+  PathStepper& stepper = impl_->walk.stepper();
+  const PathPlace place = stepper.restored(impl_->walk.places().at(point));
+  const int arcs = stepper.equations().rod().arc_count();
+  return stepper.equations().centreline_mm(place.state, 1 + fewest_places / arcs);
+}
+
+}  // namespace fam

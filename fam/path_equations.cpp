@@ -1,0 +1,442 @@
+#include "fam/path_equations.h"
+
+#include "fam/load_length.h"
+#include "fam/problem.h"
+#include "fam/rotation.h"
+#include "fam/skew.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fam {
+namespace {
+
+using scene::Span;
+using scene::Symmetry;
+
+constexpr int rotations = 3, per_node = 9;
+// Of the parameter's unit, in the difference quotient by it: its error is the square of it. Chosen, not measured.
+constexpr double parameter_difference = 1e-5;
+constexpr int most_path_newton_steps = 8;
+
+// Of a segment: its equations' rows in the system without borders, and how many.
+int first_row(std::size_t k) {
+  return k > 0 ? per_node * static_cast<int>(k) - 6 : 0;
+}
+int row_count(std::size_t k) {
+  return k > 0 ? per_node : rotations;
+}
+// The rows of a border stand behind those of the segment whose node they hold.
+int row_behind(std::size_t node) {
+  return per_node * static_cast<int>(node) + rotations;
+}
+
+// What a symmetry leaves of a turn (which is as a moment) and of a force.
+Vector3d kept_turn(Symmetry symmetry, const Vector3d& v) {
+  switch (symmetry) {
+    case Symmetry::none: break;
+    case Symmetry::plane_xy: return {0, 0, v[2]};
+    case Symmetry::plane_xz: return {0, v[1], 0};
+    case Symmetry::axis: return {v[0], 0, 0};
+  }
+  return v;
+}
+Vector3d kept_force(Symmetry symmetry, const Vector3d& v) {
+  switch (symmetry) {
+    case Symmetry::none: break;
+    case Symmetry::plane_xy: return {v[0], v[1], 0};
+    case Symmetry::plane_xz: return {v[0], 0, v[2]};
+    case Symmetry::axis: return {v[0], 0, 0};
+  }
+  return v;
+}
+
+}  // namespace
+
+PathLoads::PathLoads(const scene::PathRequest& request) : request_(request) {
+  const scene::Scene* const scenes[] = {&request_.scene};
+  cutter_.cut(scenes);
+}
+
+void PathLoads::set(double parameter, scene::Reused<Span>& spans) const {
+  cutter_.fill(scene::scene_at(request_, parameter), spans);
+}
+
+PathEquations::PathEquations(const scene::PathRequest& request, const Settings& settings)
+    : settings_(settings), loads_(request) {}
+
+std::span<const Span> PathEquations::bounds_between(double low, double high) {
+  loads_.set(low, low_);
+  loads_.set(high, high_);
+  set_larger(low_, high_, probe_);
+  return probe_;
+}
+
+std::span<const Span> PathEquations::spans_at(double parameter) {
+  loads_.set(parameter, probe_);
+  return probe_;
+}
+
+void PathEquations::set_mesh(const PathMesh& mesh) {
+  mesh_ = mesh;
+  bounds_.assign(bounds_between(mesh.low, mesh.high));
+  spans_.assign(bounds_);  // the rod learns from them what loads there may be
+  const LoadWay way{spans_, spans_, bounds_};
+  shooting_.set(way, mesh.arcs, settings_.law, settings_.model, settings_.newton_tolerance);
+  std::vector<int> twice = mesh.arcs;
+  for (int& count : twice) count *= 2;
+  fine_.set(way, twice, settings_.law, settings_.model);
+  mesh_.segments = shooting_.segments();
+  unknowns_ = static_cast<Eigen::Index>(per_node * (mesh_.segments.size() - 1) + rotations);
+}
+
+// The arc that one of another mesh ends with.
+static int carried_end(int end_arc, std::span<const int> from, std::span<const int> to) {
+  int first = 0, result = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (end_arc <= first + from[i]) return result + (end_arc - first) * (to[i] / from[i]);
+    first += from[i];
+    result += to[i];
+  }
+  return result;
+}
+
+// The states at the arcs' distal ends, without the point loads there, from those at the ends of these segments.
+static std::vector<SectionState<3>> states_at_ends(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
+                                                   const std::vector<SectionState<3>>& nodes) {
+  std::vector<SectionState<3>> ends(static_cast<std::size_t>(rod.arc_count()));
+  for (std::size_t k = segments.size(); k-- > 0;) {
+    const ArcRange& range = segments[k];
+    SectionState<3> at = nodes[k];
+    ends[static_cast<std::size_t>(range.end_arc - 1)] = at;
+    rod.march(range, at, [&](int arc, const auto&, const auto&, const SectionState<3>& arrived) {
+      if (arc > range.first_arc) ends[static_cast<std::size_t>(arc - 1)] = arrived;
+    });
+  }
+  return ends;
+}
+
+PathState PathEquations::carried_over(const PathState& state, const PathMesh& from_mesh) {
+  set_parameter(state.parameter);
+  std::vector<ArcRange> segments = from_mesh.segments;
+  for (ArcRange& segment : segments) {
+    segment = {carried_end(segment.first_arc, from_mesh.arcs, mesh_.arcs),
+               carried_end(segment.end_arc, from_mesh.arcs, mesh_.arcs)};
+  }
+  const std::vector<SectionState<3>> ends = states_at_ends(rod(), segments, state.nodes);
+  PathState result{{}, state.parameter};
+  for (const ArcRange& segment : mesh_.segments) {
+    result.nodes.push_back(ends[static_cast<std::size_t>(segment.end_arc - 1)]);
+  }
+  return result;
+}
+
+std::vector<SectionState<3>> PathEquations::states(const PathState& state) {
+  return states_at_ends(rod(), mesh_.segments, state.nodes);
+}
+
+std::vector<Vector3d> PathEquations::centreline_mm(const PathState& state, int finer_times) {
+  set_parameter(state.parameter);
+  std::vector<int> arcs = mesh_.arcs;
+  for (int& count : arcs) count *= finer_times;
+  std::vector<ArcRange> segments = mesh_.segments;
+  for (ArcRange& segment : segments) segment = {finer_times * segment.first_arc, finer_times * segment.end_arc};
+  LoadedRod<3> finer;
+  finer.set(rod().way(), arcs, rod().law(), rod().model());
+  Placed placed;
+  return place(finer, segments, state.nodes, placed);
+}
+
+void PathEquations::set_parameter(double parameter) {
+  loads_.set(parameter, spans_);
+  shooting_.set_load(1);
+}
+
+PathState PathEquations::moved(const PathState& from, const Change& change, double factor) const {
+  PathState to = from;
+  for (std::size_t k = 0; k < to.nodes.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(per_node * k);
+    SectionState<3>& node = to.nodes[k];
+    node.rotation_SB = turned(node.rotation_SB, Vector3d(factor * change.segment<3>(at)));
+    if (k + 1 == to.nodes.size()) break;
+    node.wrench.force_N += factor * shooting_.force_unit() * change.segment<3>(at + 3);
+    node.wrench.moment_Nmm += factor * shooting_.moment_unit() * change.segment<3>(at + 6);
+  }
+  to.parameter += factor * settings_.unit * change[unknowns_];
+  return to;
+}
+
+PathEquations::Change PathEquations::projected(const Change& change) const {
+  Change result = change;
+  if (held_ == Symmetry::none) return result;
+  for (Eigen::Index at = 0; at < unknowns_; at += per_node) {
+    result.segment<3>(at) = kept_turn(held_, change.segment<3>(at));
+    if (at + per_node > unknowns_) break;
+    result.segment<3>(at + 3) = kept_force(held_, change.segment<3>(at + 3));
+    result.segment<3>(at + 6) = kept_turn(held_, change.segment<3>(at + 6));
+  }
+  return result;
+}
+
+double PathEquations::inner(const Change& a, const Change& b) const {
+  double sum = 0;
+  for (Eigen::Index at = 0; at < unknowns_; at += per_node) sum += a.segment<3>(at).dot(b.segment<3>(at));
+  return sum / static_cast<double>(mesh_.segments.size()) + a[unknowns_] * b[unknowns_];
+}
+
+PathBorder::Row PathEquations::row_across(const Change& tangent) const {
+  PathBorder::Row row{0, Vector3d::Zero(), tangent[unknowns_]};
+  for (std::size_t k = 0; k < mesh_.segments.size(); ++k) {
+    const Vector3d turn = tangent.segment<3>(static_cast<Eigen::Index>(per_node * k));
+    if (turn.squaredNorm() > row.turn.squaredNorm()) row.node = k, row.turn = turn;
+  }
+  return row;
+}
+
+// The turn of a section when the rod turns about its axis and each section turns back about its own.
+static Vector3d free_turn(const SectionState<3>& node) {
+  return node.rotation_SB.col(0) - Vector3d::UnitX();
+}
+
+PathBorder::Row PathEquations::phase_row(const PathState& state) const {
+  PathBorder::Row row;
+  double sum = 0;
+  for (std::size_t k = 0; k < state.nodes.size(); ++k) {
+    const Vector3d turn = free_turn(state.nodes[k]);
+    sum += turn.squaredNorm();
+    if (turn.squaredNorm() > row.turn.squaredNorm()) row.node = k, row.turn = turn;
+  }
+  if (sum > 0) row.turn /= std::sqrt(sum / static_cast<double>(state.nodes.size()));
+  return row;
+}
+
+int PathEquations::row_of(int row) const {
+  for (const int border : border_rows_) {
+    if (row >= border) ++row;
+  }
+  return row;
+}
+
+bool PathEquations::residual(Change& result, bool& small) const {
+  result.resize(unknowns_ + 1);
+  result[unknowns_] = 0;
+  small = true;
+  for (std::size_t k = 0; k < mesh_.segments.size(); ++k) {
+    const auto equations = shooting_.equations(k, false);
+    result.segment(first_row(k), row_count(k)) = equations.residual.head(row_count(k));
+    small = small && equations.mismatch_is_small;
+  }
+  return result.allFinite();
+}
+
+PathEquations::Change PathEquations::residual_at(const PathState& state, double parameter) {
+  shooting_.set_nodes(state.nodes);
+  set_parameter(parameter);
+  Change result;
+  bool small;
+  residual(result, small);
+  return result;
+}
+
+// Of the equations, by the parameter in its unit; on one side where there is no other.
+PathEquations::Change PathEquations::by_parameter(const PathState& state) {
+  const double h = parameter_difference * settings_.unit, p = state.parameter;
+  const double low = settings_.lowest, high = settings_.highest;
+  const auto at = [&](double parameter) { return residual_at(state, parameter); };
+  if (p - h < low || p + h > high) {
+    const double s = p - h < low ? h : -h;
+    return (4 * at(p + s) - at(p + 2 * s) - 3 * at(p)) * (settings_.unit / (2 * s));
+  }
+  return (at(p + h) - at(p - h)) * (settings_.unit / (2 * h));
+}
+
+// Of the tip's segment, by a moment about the base's x axis on the tip.
+PathEquations::Change PathEquations::by_axial_moment(const PathState& state) {
+  constexpr double difference = 1e-4;
+  const std::size_t tip = mesh_.segments.size() - 1;
+  const auto before = shooting_.equations(tip, false).residual;
+  PathState pushed = state;
+  pushed.nodes.back().wrench.moment_Nmm +=
+      difference * shooting_.moment_unit() * pushed.nodes.back().rotation_SB.col(0);
+  shooting_.set_nodes(pushed.nodes);
+  const auto after = shooting_.equations(tip, false).residual;
+  shooting_.set_nodes(state.nodes);
+  Change result = zero_change();
+  result.segment(first_row(tip), row_count(tip)) = (after - before).head(row_count(tip)) / difference;
+  return result;
+}
+
+// An empty system with the border's rows in it.
+void PathEquations::add_border(const PathBorder& border) {
+  const int columns = static_cast<int>(unknowns_);
+  int path = row_behind(border.path.node);
+  int exchanges = columns - path;  // of rows, to bring the border's to the end
+  border_rows_.clear();
+  if (border.phase) {
+    int phase = row_behind(border.phase->node);
+    exchanges += columns - phase;
+    if (phase < path) ++path, ++exchanges;
+    else ++phase;
+    border_rows_ = {std::min(path, phase), std::max(path, phase)};
+    system_.resize(columns, 2);
+  } else {
+    border_rows_ = {path};
+    system_.resize(columns, 1);
+  }
+  path_row_ = path;
+  odd_borders_ = exchanges % 2 != 0;
+  system_.set_zero();
+  const auto write = [&](int row, const PathBorder::Row& values) {
+    for (int i = 0; i < rotations; ++i) system_(row, per_node * static_cast<int>(values.node) + i) = values.turn[i];
+    system_(row, columns) = values.parameter;
+  };
+  write(path, border.path);
+  for (const int row : border_rows_) {
+    if (row != path) write(row, *border.phase);
+  }
+}
+
+// Matrix and right-hand side at a state; false: not finite. with_parameter: the parameter's column, too, else that of
+// the last state.
+bool PathEquations::evaluate(const PathState& state, const PathBorder& border, bool with_parameter) {
+  if (with_parameter) parameter_column_ = by_parameter(state);
+  set_parameter(state.parameter);
+  shooting_.set_nodes(state.nodes);
+  add_border(border);
+  const int columns = static_cast<int>(unknowns_);
+  right_ = Eigen::VectorXd::Zero(system_.size());
+  const Change axial = border.phase ? by_axial_moment(state) : Change();
+  bool finite = true;
+  for (std::size_t k = 0; k < mesh_.segments.size(); ++k) {
+    const auto equations = shooting_.equations(k, true);
+    const bool is_tip = k + 1 == mesh_.segments.size();
+    const int column = per_node * static_cast<int>(k);
+    for (int i = 0; i < row_count(k); ++i) {
+      const int row = row_of(first_row(k) + i);
+      for (int j = 0; j < (is_tip ? rotations : per_node); ++j) system_(row, column + j) = equations.arrival(i, j);
+      system_(row, columns) = parameter_column_[first_row(k) + i];
+      if (border.phase) system_(row, columns + 1) = axial[first_row(k) + i];
+      right_[row] = -equations.residual[i];
+      if (k == 0) continue;
+      if (i >= rotations) system_(row, column - per_node + i) = -1;
+      for (int j = 0; i < rotations && j < rotations; ++j)
+        system_(row, column - per_node + j) = equations.mismatch_slope(i, j);
+    }
+    finite = finite && equations.mismatch_is_small;
+  }
+  return finite && right_.allFinite() && system_.factorise();
+}
+
+PathEquations::Change PathEquations::without_borders(const Eigen::VectorXd& solution) const {
+  return solution.head(unknowns_ + 1);
+}
+
+std::optional<PathEquations::Linear> PathEquations::correct(PathState& state, const PathBorder& border,
+                                                            double tolerance) {
+  Linear result;
+  double last = std::numeric_limits<double>::infinity();
+  shooting_.forget_work();
+  for (int iteration = 0; iteration < most_path_newton_steps; ++iteration) {
+    if (!evaluate(state, border, true)) return std::nullopt;
+    system_.substitute(right_);
+    const Change step = projected(without_borders(right_));
+    double turn = 0;
+    for (Eigen::Index at = 0; at < unknowns_; at += per_node) turn = std::max(turn, step.segment<3>(at).norm());
+    const double size = step.cwiseAbs().maxCoeff();
+    if (!std::isfinite(size) || turn > largest_newton_turn_rad) return std::nullopt;
+    if (iteration == 0) result.first_step_rad = turn;
+    state = moved(state, step);
+    const bool stagnates = iteration > 2 && size > 0.5 * last && size < 1e-7;
+    if (newton_curvature * size * size <= tolerance || stagnates) {
+      right_ = Eigen::VectorXd::Zero(system_.size());
+      right_[path_row_] = 1;
+      system_.substitute(right_);
+      result.tangent = projected(without_borders(right_));
+      const double length = std::sqrt(inner(result.tangent, result.tangent));
+      if (!std::isfinite(length) || !(length > 0)) return std::nullopt;
+      result.tangent /= length;
+      result.log_determinant = system_.log_determinant() + std::log(length);
+      if (border.phase) result.log_determinant -= std::log(border.phase->turn.squaredNorm());
+      result.negative = system_.determinant_is_negative() != odd_borders_;
+      set_parameter(state.parameter);
+      shooting_.set_nodes(state.nodes);
+      return result;
+    }
+    last = size;
+  }
+  return std::nullopt;
+}
+
+// Inverse iteration: what a segment's end does is asked of the segment's equations.
+PathEquations::Change PathEquations::null_change(const Vector3d& turn_of_clamp) {
+  Change change = zero_change();
+  change.head<3>() = turn_of_clamp;
+  for (int iteration = 0; iteration < 3; ++iteration) {
+    right_ = Eigen::VectorXd::Zero(system_.size());
+    for (std::size_t k = 0; k < mesh_.segments.size(); ++k) {
+      const int known = std::min<int>(row_count(k), static_cast<int>(unknowns_) - per_node * static_cast<int>(k));
+      for (int i = 0; i < known; ++i) {
+        right_[row_of(first_row(k) + i)] = change[per_node * static_cast<Eigen::Index>(k) + i];
+      }
+    }
+    system_.substitute(right_);
+    change = without_borders(right_);
+    change /= std::sqrt(inner(change, change));
+  }
+  return change;
+}
+
+std::vector<Vector3d> PathEquations::place(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
+                                           const std::vector<SectionState<3>>& nodes, Placed& arcs) {
+  std::vector<RigidMotion> motions(static_cast<std::size_t>(rod.arc_count()));
+  arcs.resize(motions.size());
+  for (std::size_t k = segments.size(); k-- > 0;) {
+    SectionState<3> state = nodes[k];
+    rod.march(segments[k], state, [&](int arc, const Screw& screw, const RigidMotion& motion, const auto&) {
+      arcs[static_cast<std::size_t>(arc)].screw = screw;
+      motions[static_cast<std::size_t>(arc)] = motion;
+    });
+  }
+  std::vector<Vector3d> positions{Vector3d::Zero()};
+  SectionPose pose;
+  for (const RigidMotion& motion : motions) {
+    pose = pose.then(motion);
+    positions.push_back(pose.position_B_mm);
+  }
+  return positions;
+}
+
+std::vector<Vector3d> PathEquations::positions_mm(const PathState& state) {
+  Placed arcs;
+  return place(rod(), mesh_.segments, state.nodes, arcs);
+}
+
+// One Newton step, with the factors at hand, towards the solution with twice the arcs.
+PathEquations::Accuracy PathEquations::accuracy(const PathState& state) {
+  Placed arcs, fine_arcs;
+  const std::vector<Vector3d> here = place(rod(), mesh_.segments, state.nodes, arcs);
+  std::vector<ArcRange> segments = mesh_.segments;
+  for (ArcRange& segment : segments) segment = {2 * segment.first_arc, 2 * segment.end_arc};
+  fine_.set_load(1);
+  right_ = Eigen::VectorXd::Zero(system_.size());
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    SectionState<3> arrived = state.nodes[k];
+    fine_.march(segments[k], arrived);
+    const auto equations = shooting_.residual(k, arrived);
+    for (int i = 0; i < row_count(k); ++i) right_[row_of(first_row(k) + i)] = -equations.residual[i];
+  }
+  system_.substitute(right_);
+  const PathState finer = moved(state, projected(without_borders(right_)));
+  set_parameter(finer.parameter);
+  fine_.set_load(1);
+  const std::vector<Vector3d> there = place(fine_, segments, finer.nodes, fine_arcs);
+  set_parameter(state.parameter);
+  Accuracy result;
+  result.tip_position_B_mm = here.back();
+  for (std::size_t k = 0; k < here.size(); ++k)
+    result.error_mm = std::max(result.error_mm, (here[k] - there[2 * k]).norm());
+  result.swing_rad = largest_swing_rad<3>(spans_, mesh_.arcs, arcs);
+  return result;
+}
+
+}  // namespace fam

@@ -1,0 +1,81 @@
+// The walk along a path: how long its steps are, what happens in them, and where it ends.
+//
+// A step is predicted to second order and corrected across the tangent. It is halved where Newton's method fails, where
+// it turns the tangent, the rod or the load too far, or where the number of unstable directions changes by more than
+// the folds and branch points in it explain. Of those, the parameter's slope changes its sign at a fold, the
+// determinant of the equations with the tangent's row at a simple branch point, and the turn across (CrossTurn) at a
+// double one; each is located by secants.
+#pragma once
+
+#include "fam/path_stepper.h"
+
+#include <functional>
+
+namespace fam {
+
+class PathWalk {
+ public:
+  struct Settings {
+    PathStepper::Settings range;
+    double from = 0, to = 1;
+    std::vector<double> stops;
+    int branches = 0;
+    double largest_step = 0;  // of the parameter
+    // Whether a stop, a fold or a branch point ends the walk.
+    std::function<bool(const PathPlace&, scene::PathPoint::Kind)> ends_at;
+    int most_points = 0;
+  };
+  PathWalk(const scene::PathRequest& request, const Options& options, const Settings& settings);
+
+  void run();
+  // From a place of another walk, on or back.
+  void run_from(const SavedPlace& start, bool back);
+
+  const scene::Path& path() const { return path_; }
+  const std::vector<SavedPlace>& places() const { return places_; }  // of the path's points
+  PathStepper& stepper() { return stepper_; }
+
+ private:
+  using Kind = scene::PathPoint::Kind;
+  // Something that happens in a step, so far along it.
+  struct Event {
+    double length;
+    PathPlace place;
+    Kind kind;
+    int multiplicity = 0;
+    std::optional<scene::PathStatus> end;
+  };
+  using Test = std::function<double(const PathPlace&)>;
+
+  void follow(PathPlace start, int branch);
+  std::optional<PathPlace> take_step(PathPlace& from);
+  bool is_fit(const PathPlace& from, const PathPlace& next) const;
+  std::optional<std::vector<Event>> events_between(const PathPlace& from, const PathPlace& next);
+  void add_turning_points(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
+  void add_stops(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
+  void add_closure(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
+  std::optional<Event> located(const PathPlace& from, const PathPlace& next, Kind kind, const Test& test);
+  Eigen::Matrix<double, 13, 1> away_from_start(const PathPlace& place) const;
+  bool emit(const Event& event, int branch);
+  void add(const PathPlace& place, Kind kind, int branch, int multiplicity = 0);
+  void end(scene::PathStatus status, const std::string& message = {});
+
+  Settings settings_;
+  bool is_turn_ = false;
+  PathStepper stepper_;
+  scene::Path path_;
+  std::vector<SavedPlace> places_;
+  std::vector<double> stops_;
+  struct Fork {
+    SavedPlace at;
+    int multiplicity;
+  };
+  std::vector<Fork> forks_;
+  PathPlace first_;  // of the branch that is followed
+  PathChange curvature_;
+  double length_ = 0;
+  int steps_ = 0;  // on this branch
+  bool ended_ = false;
+};
+
+}  // namespace fam
