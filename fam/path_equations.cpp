@@ -1,6 +1,9 @@
 #include "fam/path_equations.h"
 
+<<<<<<< HEAD
 #include "fam/load_length.h"
+=======
+>>>>>>> wip-path
 #include "fam/problem.h"
 #include "fam/rotation.h"
 #include "fam/skew.h"
@@ -11,14 +14,24 @@
 namespace fam {
 namespace {
 
+<<<<<<< HEAD
 using scene::Span;
 using scene::Symmetry;
 
 constexpr int rotations = 3, per_node = 9;
+=======
+using path_rows::first_row;
+using path_rows::row_count;
+using scene::Span;
+using scene::Symmetry;
+
+constexpr int rotations = path_rows::of_rotations, per_node = path_rows::of_node;
+>>>>>>> wip-path
 // Of the parameter's unit, in the difference quotient by it: its error is the square of it. Chosen, not measured.
 constexpr double parameter_difference = 1e-5;
 constexpr int most_path_newton_steps = 8;
 
+<<<<<<< HEAD
 // Of a segment: its equations' rows in the system without borders, and how many.
 int first_row(std::size_t k) {
   return k > 0 ? per_node * static_cast<int>(k) - 6 : 0;
@@ -26,6 +39,8 @@ int first_row(std::size_t k) {
 int row_count(std::size_t k) {
   return k > 0 ? per_node : rotations;
 }
+=======
+>>>>>>> wip-path
 // The rows of a border stand behind those of the segment whose node they hold.
 int row_behind(std::size_t node) {
   return per_node * static_cast<int>(node) + rotations;
@@ -90,6 +105,7 @@ void PathEquations::set_mesh(const PathMesh& mesh) {
   unknowns_ = static_cast<Eigen::Index>(per_node * (mesh_.segments.size() - 1) + rotations);
 }
 
+<<<<<<< HEAD
 // The arc that one of another mesh ends with.
 static int carried_end(int end_arc, std::span<const int> from, std::span<const int> to) {
   int first = 0, result = 0;
@@ -147,6 +163,8 @@ std::vector<Vector3d> PathEquations::centreline_mm(const PathState& state, int f
   return place(finer, segments, state.nodes, placed);
 }
 
+=======
+>>>>>>> wip-path
 void PathEquations::set_parameter(double parameter) {
   loads_.set(parameter, spans_);
   shooting_.set_load(1);
@@ -386,6 +404,7 @@ PathEquations::Change PathEquations::null_change(const Vector3d& turn_of_clamp) 
   return change;
 }
 
+<<<<<<< HEAD
 std::vector<Vector3d> PathEquations::place(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
                                            const std::vector<SectionState<3>>& nodes, Placed& arcs) {
   std::vector<RigidMotion> motions(static_cast<std::size_t>(rod.arc_count()));
@@ -439,4 +458,6 @@ PathEquations::Accuracy PathEquations::accuracy(const PathState& state) {
   return result;
 }
 
+=======
+>>>>>>> wip-path
 }  // namespace fam

@@ -52,6 +52,20 @@ struct PathBorder {
   std::optional<Row> phase;
 };
 
+<<<<<<< HEAD
+=======
+// The rows of a segment's equations, without borders.
+namespace path_rows {
+constexpr int of_rotations = Shooting<3>::rotations, of_node = Shooting<3>::unknowns;
+constexpr int first_row(std::size_t k) {
+  return k > 0 ? of_node * static_cast<int>(k) - (of_node - of_rotations) : 0;
+}
+constexpr int row_count(std::size_t k) {
+  return k > 0 ? of_node : of_rotations;
+}
+}  // namespace path_rows
+
+>>>>>>> wip-path
 class PathEquations {
  public:
   // Changes: of each node's rotation (rad, its own frame), force and moment (shooting's units), of the tip's rotation

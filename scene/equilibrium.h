@@ -48,10 +48,17 @@ const char* name(Status status);
 // A fact about the model that was used, for the reader of a result ("arcs" = 12).
 using Fact = std::pair<std::string, std::variant<bool, int, double, std::string>>;
 
+<<<<<<< HEAD
 // Where growing loads meet the end of their branch of equilibria: a share of them, and what is there.
 struct Limit {
   double load_factor = 0;
   PathPoint::Kind kind = PathPoint::Kind::fold;
+=======
+// Where a growing load stops: a share of it, and what is there, as a path's points are called ("fold").
+struct Limit {
+  double load_factor = 0;
+  std::string kind;
+>>>>>>> wip-path
 };
 
 // Static equilibrium of a scene. Only a converged one has a shape: otherwise `stations` is empty.
@@ -66,6 +73,7 @@ struct Equilibrium {
   std::vector<double> tendon_shortening_mm;
   std::optional<Limit> limit;  // of status limit_point, where it was located
   std::vector<Fact> model;
+  std::optional<Limit> limit;  // of limit_point, where it was located
 
   bool converged() const { return status == Status::converged; }
   const Pose& tip() const { return stations.back().X_BS; }

@@ -145,6 +145,27 @@ TEST(Path, CurvedRodTurnedInItsClamp) {
   EXPECT_TRUE(others.empty() || std::abs(others[0].parameter - 3.292926116) > 1e-3);
 }
 
+<<<<<<< HEAD
+=======
+// Ten times Euler's load and several segments, bent far round: nothing happens on the branch, as inflections stay where
+// they are (Euler 1744), and the free turn about the axis is no unstable direction.
+TEST(Path, BuckledColumnStaysStable) {
+  PathRequest request = load_path(column(), 0, 25);
+  request.branches = 1;
+  const fam::Path path = followed(request, 24);
+  int on_branch = 0;
+  for (const PathPoint& point : path.points().points) {
+    if (point.branch != 1) continue;
+    ++on_branch;
+    EXPECT_EQ(point.index, 0) << point.parameter;
+    EXPECT_TRUE(point.kind == Kind::start || point.kind == Kind::regular || point.kind == Kind::end);
+    EXPECT_LT(std::abs(point.tip_position_B_mm[2]), 1e-12);
+  }
+  EXPECT_GT(on_branch, 10);
+  EXPECT_EQ(path.points().points.back().parameter, 25);
+}
+
+>>>>>>> wip-path
 // The path meets `fam solve` under its last loads, within both tolerances.
 void expect_end_as_solved(const PathRequest& request) {
   const double tolerance_mm = 1e-3 * scene::length_mm(request.scene);
@@ -324,6 +345,28 @@ TEST(Limit, ASnapIsLocated) {
   EXPECT_LT((landed.base().moment_B_Nmm - landed.tip().position_B_mm.cross(force)).norm(), 1e-6);
 }
 
+<<<<<<< HEAD
+=======
+// Pressed on its axis and bent by a moment that follows it, a rod's path leads back to where it started: an isola, that
+// never reaches the full load (found among the random scenes, 100048).
+TEST(Limit, APathThatNeverComesBackToTheFullLoad) {
+  const scene::Moment twist{1, Frame::follower, {-4.87e-4, -7.57e-4, 5.61e-4}};
+  const scene::Scene rod = uniform_rod(1, slender(1, 0.91), {Force{1, Frame::fixed, {-12.3, 0, 0}}, twist});
+  fam::Options after;
+  after.after_snap = true;
+  const scene::Equilibrium stuck = fam::solve(rod, after);
+  EXPECT_EQ(stuck.status, scene::Status::limit_point) << stuck.message;
+  ASSERT_TRUE(stuck.limit);
+  const double first = stuck.limit->load_factor;
+  const fam::Path path = followed(load_path(rod, 0.9 * first, 1), 48);
+  const auto folds = of_kind(path.points(), Kind::fold);
+  ASSERT_FALSE(folds.empty());
+  EXPECT_NEAR(folds[0].parameter / first, 1, 1e-6);
+  EXPECT_FALSE(folds[0].index.has_value());
+  EXPECT_NE(path.points().status, PathStatus::reached);
+}
+
+>>>>>>> wip-path
 // The elimination against Eigen's, of a band that is singular without its border.
 TEST(BorderedBand, SolvesWhereTheBandIsSingular) {
   constexpr int n = 30;
