@@ -5,6 +5,7 @@
 #include "exact_reference/shooting.h"
 #include "exact_reference/stability.h"
 #include "scene/branch_watch.h"
+#include "scene/path.h"
 
 #include <Eigen/Geometry>
 
@@ -229,7 +230,7 @@ scene::Equilibrium stopped(const ScaledRod& rod, const Path& path) {
   } else if (const auto fold = fold_ahead(rod, {path.shooting.mesh(), path.y}, path.load)) {
     result.status = scene::Status::limit_point;
     result.message = text("snaps at %.1f %% of the load", 100 * *fold);
-    result.limit = {*fold, scene::PathPoint::Kind::fold};
+    result.limit = {*fold, name(scene::PathPoint::Kind::fold)};
   }
   return result;
 }

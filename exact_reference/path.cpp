@@ -38,7 +38,9 @@ class RequestedRods {
 class Follower {
  public:
   Follower(const scene::PathRequest& request, const Options& options, const PathVisitor& visit)
-      : route_{request.from, request.to, request.stop_at, request.largest_step},
+      : route_{request.from, request.to, request.stop_at,
+               request.largest_step.value_or(std::abs(request.to - request.from) / 20),
+               request.parameter == scene::PathParameter::turn_rad},
         branches_(request.branches),
         tolerance_(options.tolerance),
         rods_(request, options),
@@ -111,7 +113,9 @@ class Follower {
       motion = tip_motion(path, point.x, direction);
     }
     constexpr double no_motion = 1e-6;
-    const double towards = std::abs(motion[1]) > no_motion * motion.norm() ? motion[1] : motion[2];
+    double towards = std::abs(motion[1]) > no_motion * motion.norm() ? motion[1] : motion[2];
+    const double turn = direction[direction.size() - core_size];  // of the tip about x
+    if (motion.norm() < no_motion * std::abs(turn)) towards = turn;
     if (towards < 0) direction = -direction;
     path.start_branch(point.x, direction, free_turn.size() > 0 ? &free_turn : nullptr);
     PathWalk walk(route_, path, branch, result_, visit_);
@@ -133,8 +137,7 @@ class Follower {
 
 scene::Path follow(const scene::PathRequest& request, const Options& options, const PathVisitor& visit) {
   check(options);
-  scene::validate(scene::scene_at(request, request.from), "path at its start");
-  scene::validate(scene::scene_at(request, request.to), "path at its end");
+  scene::validate(request);
   return Follower(request, options, visit).follow();
 }
 

@@ -15,11 +15,14 @@ using PathVisitor = std::function<void(const scene::PathPoint& point, const scen
 // Model and tolerance of the options count.
 //
 // The start: what solve() finds at `from` by boundary_value. Branches, in the order in which their points were met, are
-// followed one way: at a simple point the one that takes the tip into +y, or into +z where it does not move in y; at a
-// double one that into +y, at z = 0. A branch begins with a second point at its branch point (kind `start`), and ends
-// as the first path does, or closed, back there. A branch point that a branch arrives at is not left again.
+// followed one way: at a simple point the one that takes the tip into +y, or else into +z, or else turns it about +x;
+// at a double one that into +y, at z = 0. A branch begins with a second point at its branch point (kind `start`), and
+// ends as the first path does, or closed, back there. A branch point that a branch arrives at is not left again.
 //
-// Throws scene::SceneError where a scene at `from` or `to` is not valid or an option is out of its range.
+// On the way the parameter changes by a twentieth of the range at most if largest_step is not given. A turn that is
+// complete and back at its first equilibrium is closed.
+//
+// Throws scene::SceneError where the request is not valid (scene::validate) or an option is out of its range.
 scene::Path follow(const scene::PathRequest& request, const Options& options = {}, const PathVisitor& visit = {});
 
 }  // namespace exact_reference

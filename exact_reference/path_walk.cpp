@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 namespace exact_reference {
 namespace {
@@ -63,6 +64,7 @@ bool PathWalk::stop(PathStatus status, const char* why) {
 }
 
 void PathWalk::from_start() {
+  start_ = mark_of(path_.base().x);
   Place start{0, path_.base().x, {}};
   start.point.kind = Kind::start;
   start.point.index = path_.base().index;
@@ -100,12 +102,12 @@ bool PathWalk::step(double& s) {
   if (points_ > most_points) return stop(PathStatus::work_limit, "given up after 5000 points, at %.8g");
   s = std::min(s, longest_step);
   const double slope = std::abs(path_.base().slope());
-  if (route_.largest_step && s * slope > *route_.largest_step) s = *route_.largest_step / slope;
+  if (s * slope > route_.largest_step) s = route_.largest_step / slope;
   for (; s > smallest_step; s /= 2) {
     const std::optional<Solution> next = path_.at(s);
     if (!next) continue;
     const double change = std::abs(next->parameter() - path_.base().parameter());
-    const bool too_far = route_.largest_step && change > *route_.largest_step * (1 + 1e-9);
+    const bool too_far = change > route_.largest_step * (1 + 1e-9);
     if (too_far || !path_.leads_to(*next)) continue;
     const std::optional<std::vector<CriticalPoint>> critical = critical_points(path_, *next, s);
     if (!critical) continue;
@@ -132,8 +134,7 @@ bool PathWalk::note_stretch(const Solution& end, double s, const std::vector<Cri
     place.s = point.s;
     place.x = point.x;
     if (note_targets(last, place)) return true;
-    const bool back =
-        point.kind == Kind::branch && start_ && same_equilibrium(*start_, mark_of(point.x), route_.scale());
+    const bool back = point.kind == Kind::branch && is_back(point.x);
     place.point.kind = back ? Kind::end : point.kind;
     place.point.multiplicity = point.multiplicity;
     place.point.index = point.index;
@@ -153,10 +154,29 @@ bool PathWalk::note_stretch(const Solution& end, double s, const std::vector<Cri
   return false;
 }
 
+bool PathWalk::is_back(const VectorXd& x) const {
+  Mark mark = mark_of(x);
+  if (route_.turns) mark[6] = start_[6] + std::remainder(mark[6] - start_[6], 2 * std::numbers::pi);
+  return same_equilibrium(start_, mark, route_.scale());
+}
+
+// Whole turns away from the start, between two values of the parameter.
+std::vector<double> PathWalk::whole_turns(double a, double b) const {
+  constexpr double turn = 2 * std::numbers::pi;
+  std::vector<double> values;
+  if (!route_.turns || branch_ > 0) return values;
+  for (double k = std::ceil((std::min(a, b) - route_.from) / turn); route_.from + k * turn <= std::max(a, b); ++k) {
+    if (k != 0) values.push_back(route_.from + k * turn);
+  }
+  return values;
+}
+
 // The values of the parameter at which points are placed, between two places with no fold between.
 bool PathWalk::note_targets(const Place& a, const Place& b) {
   const double start = a.x[a.x.size() - 1], end = b.x[b.x.size() - 1];
   std::vector<double> targets = route_.stop_at;
+  const std::vector<double> turns = whole_turns(start, end);
+  targets.insert(targets.end(), turns.begin(), turns.end());
   targets.push_back(route_.from);
   targets.push_back(route_.to);
   std::erase_if(targets, [&](double t) { return !((t - start) * (t - end) < 0 || (t == end && t != start)); });
@@ -165,16 +185,22 @@ bool PathWalk::note_targets(const Place& a, const Place& b) {
   targets.erase(std::unique(targets.begin(), targets.end()), targets.end());
   for (const double target : targets) {
     const std::optional<Solution> at = solution_at(target, a, b);
-    const bool ends = target == route_.to || target == route_.from;
+    const bool arrives = target == route_.to || target == route_.from;
     if (!at) {
-      if (ends) return stop(PathStatus::step_too_small, "no equilibrium found at the end, after %.8g");
+      if (arrives) return stop(PathStatus::step_too_small, "no equilibrium found at the end, after %.8g");
       continue;
     }
+    const bool turned = std::find(turns.begin(), turns.end(), target) != turns.end();
+    const bool closes = turned && !arrives && is_back(at->x), ends = arrives || closes;
+    const bool wanted =
+        !turned || std::find(route_.stop_at.begin(), route_.stop_at.end(), target) != route_.stop_at.end();
+    if (!ends && !wanted) continue;
     Place place = b;
     place.x = at->x;
     place.point.kind = ends ? Kind::end : Kind::regular;
     place.point.index = at->index;
     note(place);
+    if (closes) return stop(PathStatus::closed, "");
     if (ends) return stop(target == route_.to ? PathStatus::reached : PathStatus::returned, "");
   }
   return false;

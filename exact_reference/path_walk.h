@@ -13,7 +13,8 @@ namespace exact_reference {
 struct Route {
   double from = 0, to = 1;
   std::vector<double> stop_at;
-  std::optional<double> largest_step;
+  double largest_step = 0;
+  bool turns = false;  // the parameter is a turn, the same again after a full one
 
   double scale() const { return std::abs(to - from); }
 };
@@ -55,6 +56,8 @@ class PathWalk {
   void walk(double s);
   bool step(double& s);
   bool note_stretch(const Solution& end, double s, const std::vector<CriticalPoint>& critical);
+  bool is_back(const Eigen::VectorXd& x) const;
+  std::vector<double> whole_turns(double a, double b) const;
   bool note_targets(const Place& a, const Place& b);
   std::optional<Solution> solution_at(double parameter, const Place& a, const Place& b);
   void note(const Place& place);
@@ -65,7 +68,7 @@ class PathWalk {
   int branch_;
   scene::Path& result_;
   const PathVisitor& visit_;
-  std::optional<Mark> start_;  // of a branch
+  Mark start_ = Mark::Zero();
   int points_ = 0;
   scene::PathStatus status_ = scene::PathStatus::not_started;
   std::string message_;

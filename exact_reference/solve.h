@@ -38,7 +38,8 @@ scene::Equilibrium solve(const scene::Scene& scene, const Options& options = {})
 
 // The equilibrium that the rod reaches when its loads go in a straight line from zero to those of the first scene, from
 // there to those of the second, and so on; always by boundary_value. The scenes have one rod and the same kinds of
-// load. load_step_too_small also where no equilibrium continues that reached on the way.
+// load. limit_point, with the share of the last part of the way, or load_step_too_small also where no equilibrium continues
+// that reached on the way.
 scene::Equilibrium solve_along(std::span<const scene::Scene> scenes, const Options& options = {});
 
 }  // namespace exact_reference

@@ -58,11 +58,7 @@ std::optional<Equilibrium> equilibrium_at(const scene::Scene& scene, const Optio
 Equilibrium limit_at(double load_factor) {
   Equilibrium result;
   result.status = Status::limit_point;
-<<<<<<< HEAD
-  result.limit = scene::Limit{load_factor, Kind::fold};
-=======
   result.limit = scene::Limit{load_factor, scene::name(Kind::fold)};
->>>>>>> wip-path
   std::ostringstream message;
   message.precision(3);
   message << "snaps at " << 100 * load_factor << " % of the load";

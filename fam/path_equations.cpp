@@ -1,9 +1,5 @@
 #include "fam/path_equations.h"
 
-<<<<<<< HEAD
-#include "fam/load_length.h"
-=======
->>>>>>> wip-path
 #include "fam/problem.h"
 #include "fam/rotation.h"
 #include "fam/skew.h"
@@ -14,33 +10,16 @@
 namespace fam {
 namespace {
 
-<<<<<<< HEAD
-using scene::Span;
-using scene::Symmetry;
-
-constexpr int rotations = 3, per_node = 9;
-=======
 using path_rows::first_row;
 using path_rows::row_count;
 using scene::Span;
 using scene::Symmetry;
 
 constexpr int rotations = path_rows::of_rotations, per_node = path_rows::of_node;
->>>>>>> wip-path
 // Of the parameter's unit, in the difference quotient by it: its error is the square of it. Chosen, not measured.
 constexpr double parameter_difference = 1e-5;
 constexpr int most_path_newton_steps = 8;
 
-<<<<<<< HEAD
-// Of a segment: its equations' rows in the system without borders, and how many.
-int first_row(std::size_t k) {
-  return k > 0 ? per_node * static_cast<int>(k) - 6 : 0;
-}
-int row_count(std::size_t k) {
-  return k > 0 ? per_node : rotations;
-}
-=======
->>>>>>> wip-path
 // The rows of a border stand behind those of the segment whose node they hold.
 int row_behind(std::size_t node) {
   return per_node * static_cast<int>(node) + rotations;
@@ -105,66 +84,6 @@ void PathEquations::set_mesh(const PathMesh& mesh) {
   unknowns_ = static_cast<Eigen::Index>(per_node * (mesh_.segments.size() - 1) + rotations);
 }
 
-<<<<<<< HEAD
-// The arc that one of another mesh ends with.
-static int carried_end(int end_arc, std::span<const int> from, std::span<const int> to) {
-  int first = 0, result = 0;
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    if (end_arc <= first + from[i]) return result + (end_arc - first) * (to[i] / from[i]);
-    first += from[i];
-    result += to[i];
-  }
-  return result;
-}
-
-// The states at the arcs' distal ends, without the point loads there, from those at the ends of these segments.
-static std::vector<SectionState<3>> states_at_ends(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
-                                                   const std::vector<SectionState<3>>& nodes) {
-  std::vector<SectionState<3>> ends(static_cast<std::size_t>(rod.arc_count()));
-  for (std::size_t k = segments.size(); k-- > 0;) {
-    const ArcRange& range = segments[k];
-    SectionState<3> at = nodes[k];
-    ends[static_cast<std::size_t>(range.end_arc - 1)] = at;
-    rod.march(range, at, [&](int arc, const auto&, const auto&, const SectionState<3>& arrived) {
-      if (arc > range.first_arc) ends[static_cast<std::size_t>(arc - 1)] = arrived;
-    });
-  }
-  return ends;
-}
-
-PathState PathEquations::carried_over(const PathState& state, const PathMesh& from_mesh) {
-  set_parameter(state.parameter);
-  std::vector<ArcRange> segments = from_mesh.segments;
-  for (ArcRange& segment : segments) {
-    segment = {carried_end(segment.first_arc, from_mesh.arcs, mesh_.arcs),
-               carried_end(segment.end_arc, from_mesh.arcs, mesh_.arcs)};
-  }
-  const std::vector<SectionState<3>> ends = states_at_ends(rod(), segments, state.nodes);
-  PathState result{{}, state.parameter};
-  for (const ArcRange& segment : mesh_.segments) {
-    result.nodes.push_back(ends[static_cast<std::size_t>(segment.end_arc - 1)]);
-  }
-  return result;
-}
-
-std::vector<SectionState<3>> PathEquations::states(const PathState& state) {
-  return states_at_ends(rod(), mesh_.segments, state.nodes);
-}
-
-std::vector<Vector3d> PathEquations::centreline_mm(const PathState& state, int finer_times) {
-  set_parameter(state.parameter);
-  std::vector<int> arcs = mesh_.arcs;
-  for (int& count : arcs) count *= finer_times;
-  std::vector<ArcRange> segments = mesh_.segments;
-  for (ArcRange& segment : segments) segment = {finer_times * segment.first_arc, finer_times * segment.end_arc};
-  LoadedRod<3> finer;
-  finer.set(rod().way(), arcs, rod().law(), rod().model());
-  Placed placed;
-  return place(finer, segments, state.nodes, placed);
-}
-
-=======
->>>>>>> wip-path
 void PathEquations::set_parameter(double parameter) {
   loads_.set(parameter, spans_);
   shooting_.set_load(1);
@@ -404,60 +323,4 @@ PathEquations::Change PathEquations::null_change(const Vector3d& turn_of_clamp) 
   return change;
 }
 
-<<<<<<< HEAD
-std::vector<Vector3d> PathEquations::place(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
-                                           const std::vector<SectionState<3>>& nodes, Placed& arcs) {
-  std::vector<RigidMotion> motions(static_cast<std::size_t>(rod.arc_count()));
-  arcs.resize(motions.size());
-  for (std::size_t k = segments.size(); k-- > 0;) {
-    SectionState<3> state = nodes[k];
-    rod.march(segments[k], state, [&](int arc, const Screw& screw, const RigidMotion& motion, const auto&) {
-      arcs[static_cast<std::size_t>(arc)].screw = screw;
-      motions[static_cast<std::size_t>(arc)] = motion;
-    });
-  }
-  std::vector<Vector3d> positions{Vector3d::Zero()};
-  SectionPose pose;
-  for (const RigidMotion& motion : motions) {
-    pose = pose.then(motion);
-    positions.push_back(pose.position_B_mm);
-  }
-  return positions;
-}
-
-std::vector<Vector3d> PathEquations::positions_mm(const PathState& state) {
-  Placed arcs;
-  return place(rod(), mesh_.segments, state.nodes, arcs);
-}
-
-// One Newton step, with the factors at hand, towards the solution with twice the arcs.
-PathEquations::Accuracy PathEquations::accuracy(const PathState& state) {
-  Placed arcs, fine_arcs;
-  const std::vector<Vector3d> here = place(rod(), mesh_.segments, state.nodes, arcs);
-  std::vector<ArcRange> segments = mesh_.segments;
-  for (ArcRange& segment : segments) segment = {2 * segment.first_arc, 2 * segment.end_arc};
-  fine_.set_load(1);
-  right_ = Eigen::VectorXd::Zero(system_.size());
-  for (std::size_t k = 0; k < segments.size(); ++k) {
-    SectionState<3> arrived = state.nodes[k];
-    fine_.march(segments[k], arrived);
-    const auto equations = shooting_.residual(k, arrived);
-    for (int i = 0; i < row_count(k); ++i) right_[row_of(first_row(k) + i)] = -equations.residual[i];
-  }
-  system_.substitute(right_);
-  const PathState finer = moved(state, projected(without_borders(right_)));
-  set_parameter(finer.parameter);
-  fine_.set_load(1);
-  const std::vector<Vector3d> there = place(fine_, segments, finer.nodes, fine_arcs);
-  set_parameter(state.parameter);
-  Accuracy result;
-  result.tip_position_B_mm = here.back();
-  for (std::size_t k = 0; k < here.size(); ++k)
-    result.error_mm = std::max(result.error_mm, (here[k] - there[2 * k]).norm());
-  result.swing_rad = largest_swing_rad<3>(spans_, mesh_.arcs, arcs);
-  return result;
-}
-
-=======
->>>>>>> wip-path
 }  // namespace fam

@@ -52,8 +52,6 @@ struct PathBorder {
   std::optional<Row> phase;
 };
 
-<<<<<<< HEAD
-=======
 // The rows of a segment's equations, without borders.
 namespace path_rows {
 constexpr int of_rotations = Shooting<3>::rotations, of_node = Shooting<3>::unknowns;
@@ -65,7 +63,6 @@ constexpr int row_count(std::size_t k) {
 }
 }  // namespace path_rows
 
->>>>>>> wip-path
 class PathEquations {
  public:
   // Changes: of each node's rotation (rad, its own frame), force and moment (shooting's units), of the tip's rotation

@@ -337,7 +337,6 @@ scene::Determinant Shooting<D>::determinant() const {
 }
 
 template <int D>
-<<<<<<< HEAD
 scene::Determinant Shooting<D>::exact_determinant() {
   SegmentEquations equations;
   bool small;
@@ -351,8 +350,6 @@ scene::Determinant Shooting<D>::exact_determinant() {
 }
 
 template <int D>
-=======
->>>>>>> wip-path
 typename Shooting<D>::SegmentEquations Shooting<D>::equations(std::size_t k, bool with_slopes) const {
   if (!with_slopes) {
     Node state = nodes_[k];

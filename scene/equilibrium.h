@@ -1,8 +1,6 @@
 // What every method returns.
 #pragma once
 
-#include "scene/path.h"
-
 #include <Eigen/Core>
 
 #include <optional>
@@ -48,17 +46,10 @@ const char* name(Status status);
 // A fact about the model that was used, for the reader of a result ("arcs" = 12).
 using Fact = std::pair<std::string, std::variant<bool, int, double, std::string>>;
 
-<<<<<<< HEAD
-// Where growing loads meet the end of their branch of equilibria: a share of them, and what is there.
-struct Limit {
-  double load_factor = 0;
-  PathPoint::Kind kind = PathPoint::Kind::fold;
-=======
 // Where a growing load stops: a share of it, and what is there, as a path's points are called ("fold").
 struct Limit {
   double load_factor = 0;
   std::string kind;
->>>>>>> wip-path
 };
 
 // Static equilibrium of a scene. Only a converged one has a shape: otherwise `stations` is empty.
@@ -71,7 +62,6 @@ struct Equilibrium {
   std::optional<bool> stable;     // empty: not decided
   // How much of each of the scene's tendons leaves through the clamp: int |e_x + u0 x r| ds - int |v + u x r| ds.
   std::vector<double> tendon_shortening_mm;
-  std::optional<Limit> limit;  // of status limit_point, where it was located
   std::vector<Fact> model;
   std::optional<Limit> limit;  // of limit_point, where it was located
 

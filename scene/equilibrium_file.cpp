@@ -34,11 +34,7 @@ std::string triple(const Eigen::Vector3d& v) {
 std::string to_json(const Equilibrium& result, const std::string& method, double time_us) {
   Json json{{"method", method}, {"status", name(result.status)}};
   if (!result.message.empty()) json["message"] = result.message;
-<<<<<<< HEAD
-  if (result.limit) json["limit"] = {{"load_factor", result.limit->load_factor}, {"kind", name(result.limit->kind)}};
-=======
   if (result.limit) json["limit"] = {{"load_factor", result.limit->load_factor}, {"kind", result.limit->kind}};
->>>>>>> wip-path
   json["tip"] = nullptr;
   json["base"] = nullptr;
   json["centreline"] = Json::array();

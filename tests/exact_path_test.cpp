@@ -173,6 +173,15 @@ TEST(ExactPath, CurvedRodTurnedInItsClamp) {
   EXPECT_GT((folds(1e-12) - expected).lpNorm<Eigen::Infinity>(), 1e-3);
 }
 
+// Further on it is the same again.
+TEST(ExactPath, AWholeTurnCloses) {
+  scene::PathRequest request = turned_curved_rod(1.15);
+  request.to = 8;
+  const scene::Path path = complete_path(request);
+  EXPECT_EQ(path.status, PathStatus::closed);
+  EXPECT_DOUBLE_EQ(path.points.back().parameter, 2 * pi);
+}
+
 // The same under a smaller force, where its two folds are about to vanish: 3e-6 apart. A value between them is met
 // three times.
 TEST(ExactPath, TwoFoldsInOneStep) {

@@ -145,8 +145,6 @@ TEST(Path, CurvedRodTurnedInItsClamp) {
   EXPECT_TRUE(others.empty() || std::abs(others[0].parameter - 3.292926116) > 1e-3);
 }
 
-<<<<<<< HEAD
-=======
 // Ten times Euler's load and several segments, bent far round: nothing happens on the branch, as inflections stay where
 // they are (Euler 1744), and the free turn about the axis is no unstable direction.
 TEST(Path, BuckledColumnStaysStable) {
@@ -165,7 +163,6 @@ TEST(Path, BuckledColumnStaysStable) {
   EXPECT_EQ(path.points().points.back().parameter, 25);
 }
 
->>>>>>> wip-path
 // The path meets `fam solve` under its last loads, within both tolerances.
 void expect_end_as_solved(const PathRequest& request) {
   const double tolerance_mm = 1e-3 * scene::length_mm(request.scene);
@@ -345,8 +342,6 @@ TEST(Limit, ASnapIsLocated) {
   EXPECT_LT((landed.base().moment_B_Nmm - landed.tip().position_B_mm.cross(force)).norm(), 1e-6);
 }
 
-<<<<<<< HEAD
-=======
 // Pressed on its axis and bent by a moment that follows it, a rod's path leads back to where it started: an isola, that
 // never reaches the full load (found among the random scenes, 100048).
 TEST(Limit, APathThatNeverComesBackToTheFullLoad) {
@@ -366,7 +361,6 @@ TEST(Limit, APathThatNeverComesBackToTheFullLoad) {
   EXPECT_NE(path.points().status, PathStatus::reached);
 }
 
->>>>>>> wip-path
 // The elimination against Eigen's, of a band that is singular without its border.
 TEST(BorderedBand, SolvesWhereTheBandIsSingular) {
   constexpr int n = 30;
