@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fem_reference/beam_system.h"
+#include "fem_reference/options.h"
 #include "scene/equilibrium.h"
 
 #include <optional>
@@ -19,6 +20,8 @@ struct SteppingOptions {
   double smallest_bifurcation_step = 1e-5;
 };
 
+SteppingOptions stepping_options(const Options& options);
+
 // state only when the status is `converged`.
 struct SteppingResult {
   scene::Status status = scene::Status::not_converged;
@@ -32,6 +35,12 @@ struct SteppingResult {
 // The increment that Newton's iteration would add next, at most: it falls by more from one to the next than it did from
 // the last (0: there is none) to now, quadratically in the end.
 double next_increment(double last, double now);
+
+// Whether a tendon has collapsed anywhere on the way between two states (tendon_pull.h).
+bool tendon_collapses(const BeamModel& model, const BeamState& from, const BeamState& to);
+
+// The first element that turns by pi or more from end to end, which the mesh cannot show.
+std::optional<std::size_t> turned_over(const BeamModel& model, const BeamState& state);
 
 // Newton's iteration ends: largest increment of a node yet to come (displacement over L, rotation in rad) <= tolerance
 // and largest residual <= tolerance F, with F = max(1, largest internal force) in EI / L^2.
