@@ -128,14 +128,12 @@ void Follower::keep(const BranchPoint& point) {
 }
 
 void Follower::follow(PathState first, const PathState& origin, double first_step) {
-  std::vector<double> targets = targets_;
-  targets.push_back(origin.parameter);
   PathTracer tracer(system_, std::move(first), first_step, largest_step_);
   while (true) {
     if (path_.points.size() >= static_cast<std::size_t>(options_.max_load_steps)) {
       return end(PathStatus::work_limit, std::to_string(path_.points.size()) + " points found");
     }
-    const auto landmarks = tracer.next(targets);
+    const auto landmarks = tracer.next(targets_);
     if (!landmarks) {
       char text[80];
       std::snprintf(text, sizeof text, "parameter %.6g reached; no further step: ", tracer.last().parameter);
@@ -143,9 +141,7 @@ void Follower::follow(PathState first, const PathState& origin, double first_ste
     }
     for (const Landmark& landmark : *landmarks) {
       const auto status = end_at(landmark, origin);
-      const bool only_origin = landmark.target == origin.parameter &&
-                               std::find(targets_.begin(), targets_.end(), *landmark.target) == targets_.end();
-      if (status || !only_origin) emit(landmark, status ? Kind::end : landmark.kind);
+      emit(landmark, status ? Kind::end : landmark.kind);
       if (status) return end(*status, "");
       if (landmark.kind == Kind::branch) keep({landmark.state, landmark.multiplicity});
     }
@@ -165,10 +161,7 @@ double sign_of(const BeamIncrement& mode) {
 // A point on the other branch, a little away from the branch point.
 std::optional<PathState> Follower::leave(const BranchPoint& from) {
   const Direction& tangent = from.state.tangent;
-  BeamState state = from.state.state;
-  double parameter = from.state.parameter;
-  if (!system_.correct(state, parameter, tangent)) return {};
-  auto mode = system_.buckling_mode(from.multiplicity > 1);
+  auto mode = system_.buckling_mode(from.state, from.multiplicity > 1);
   if (!mode) return {};
   const double along = system_.dot(*mode, tangent);
   add(mode->motion, tangent.motion, -along);

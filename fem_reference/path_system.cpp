@@ -63,14 +63,21 @@ bool PathSystem::bordered_increment(const BeamState& state, double parameter, co
   return true;
 }
 
+Residual PathSystem::assemble(const BeamState& state, double parameter) {
+  model_ = parametric_.at(parameter);
+  place_pin(state);
+  return system_.assemble(state, 1);
+}
+
+// Elsewhere Newton's next increment is its square.
+constexpr double round_off_of_modes = 1e-7;
+
 bool PathSystem::correct(BeamState& state, double& parameter, const Direction& fixed) {
   const BeamState start = state;
   Direction increment;
   double last_increment = 0, to_come = INFINITY;
   for (int iteration = 0;; ++iteration) {
-    model_ = parametric_.at(parameter);
-    place_pin(state);
-    const Residual residual = system_.assemble(state, 1);
+    const Residual residual = assemble(state, parameter);
     if (!residual.finite() || !all_finite(state) || !std::isfinite(parameter)) {
       return failed("a value is not finite");
     }
@@ -84,7 +91,8 @@ bool PathSystem::correct(BeamState& state, double& parameter, const Direction& f
     const double this_increment =
         std::max({largest_entry(increment.motion.displacement_B), largest_entry(increment.motion.rotation_S),
                   std::abs(increment.parameter) / reach_});
-    to_come = next_increment(last_increment, this_increment);
+    // Near a branch point the last increments are round-off along its mode.
+    to_come = this_increment <= round_off_of_modes ? 0 : next_increment(last_increment, this_increment);
     last_increment = this_increment;
   }
 }
@@ -123,7 +131,8 @@ std::optional<PathState> PathSystem::step(const PathState& from, const Direction
 }
 
 // Inverse iteration; the loads that stand for a mode act on the elements' ends alone.
-std::optional<Direction> PathSystem::buckling_mode(bool is_double) {
+std::optional<Direction> PathSystem::buckling_mode(const PathState& at, bool is_double) {
+  assemble(at.state, at.parameter);
   const auto order = static_cast<std::size_t>(model_.reference.order());
   Imbalance push;
   push.elements.assign(model_.elements.size(),

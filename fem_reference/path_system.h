@@ -33,15 +33,14 @@ class PathSystem {
  public:
   PathSystem(ParametricModel parametric, const SteppingOptions& options);
 
-  // Newton's iteration from a guess; its increments are orthogonal to `fixed`. False: see failure().
-  bool correct(BeamState& state, double& parameter, const Direction& fixed);
-  // The same and what a path needs of the equilibrium found; its tangent leads `ahead`.
+  // Newton's iteration from a guess, its increments orthogonal to `fixed`, and what a path needs of the equilibrium
+  // found; its tangent leads `ahead`. Empty: see failure().
   std::optional<PathState> solve(BeamState guess, double parameter, const Direction& fixed, const Direction& ahead);
   // From a point on in a direction.
   std::optional<PathState> step(const PathState& from, const Direction& direction, double length);
 
-  // The mode of the smallest eigenvalue of the equilibrium solved last; of two equal ones the mode in the x-y plane.
-  std::optional<Direction> buckling_mode(bool is_double);
+  // The mode of the smallest eigenvalue at a branch point; of two equal ones the mode in the x-y plane.
+  std::optional<Direction> buckling_mode(const PathState& at, bool is_double);
 
   Direction along_parameter(double sign) const;
   double dot(const Direction& a, const Direction& b) const { return product(a, b, reach_); }
@@ -54,6 +53,8 @@ class PathSystem {
 
  private:
   bool failed(const char* why);
+  Residual assemble(const BeamState& state, double parameter);
+  bool correct(BeamState& state, double& parameter, const Direction& fixed);
   bool bordered_increment(const BeamState& state, double parameter, const Direction& fixed, Direction& increment);
   std::optional<PathState> judged(BeamState state, double parameter, const Direction& ahead);
   void place_pin(const BeamState& state);

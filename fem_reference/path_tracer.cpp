@@ -15,8 +15,8 @@ constexpr double rotation_limit_rad = 0.2;  // of any node in a step
 constexpr double surprise_limit_rad = 0.02;  // between where the tangent pointed and where the step ends
 constexpr double smallest_cosine = 0.95;       // of the angle between the tangents at both ends
 constexpr double smallest_step = 1e-7;
-constexpr double together = 1e-4;
-constexpr double least_of_a_jump = 1e-3;  // of a function at what should be its zero, to that at the step's ends
+constexpr double together = 0.01;
+constexpr double least_of_a_jump = 1e-2;  // of a function at what should be its zero, to that at the step's ends
 
 bool turns_back(const PathState& from, const PathState& to) {
   return (from.tangent.parameter < 0) != (to.tangent.parameter < 0);
@@ -25,6 +25,21 @@ bool turns_back(const PathState& from, const PathState& to) {
 // The product of the multiplicity's eigenvalues as a multiple of that at `from`, without its sign.
 double ratio(const scene::Determinant& from, const scene::Determinant& to, int multiplicity) {
   return std::exp((to.log_size - from.log_size) / multiplicity);
+}
+
+// Of the places found last, three at most.
+template <typename Places>
+double interpolated_zero(const Places& places, const std::vector<double>& values) {
+  const std::size_t n = values.size(), first = n > 2 ? n - 3 : 0;
+  double zero = 0;
+  for (std::size_t i = first; i < n; ++i) {
+    double share = 1;
+    for (std::size_t j = first; j < n; ++j) {
+      if (j != i) share *= values[j] / (values[j] - values[i]);
+    }
+    zero += share * places[i].length;
+  }
+  return zero;
 }
 
 }  // namespace
@@ -95,35 +110,46 @@ PathTracer::Function PathTracer::event_function(const Event& event, const PathSt
   };
 }
 
-// Secants that stay between the two places, or halves.
-std::optional<PathTracer::Place> PathTracer::zero(const Function& function, Place low, Place high) {
-  constexpr int max_tries = 80;
-  const double width = high.length - low.length, size = std::max(std::abs(function(low.state)), std::abs(function(high.state)));
-  const double close = 1e-10 * width;
-  double f_low = function(low.state), f_high = function(high.state);
-  Place best = std::abs(f_low) < std::abs(f_high) ? low : high, before = std::abs(f_low) < std::abs(f_high) ? high : low;
+// Inverse interpolation through the last three places, or halves. At a branch point the equations are singular, so none
+// is solved much closer to it than `close` of the distance: the last piece is that of the tangent.
+std::optional<PathTracer::Place> PathTracer::zero(const Function& function, const Place& from, const Place& to,
+                                                  double close) {
+  constexpr int max_tries = 60;
+  const double width = to.length - from.length;
+  double low = from.length, high = to.length;
+  std::vector<Place> places{from, to};
+  std::vector<double> values{function(from.state), function(to.state)};
+  const bool sign_low = values[0] < 0;
+  const double size = std::max(std::abs(values[0]), std::abs(values[1]));
   for (int i = 0; i < max_tries; ++i) {
-    const double f = function(best.state), f_before = function(before.state);
-    const double secant = best.length - f * (best.length - before.length) / (f - f_before);
-    const double gap = high.length - low.length;
-    const bool inside = secant > low.length && secant < high.length && i % 8 != 7;
-    const double length = inside ? secant : low.length + 0.5 * gap;
-    auto state = system_.step(last_, last_.tangent, length);
-    if (!state) break;
-    const double f_new = function(*state);
-    before = std::exchange(best, {length, std::move(*state)});
-    ((f_new < 0) == (f_low < 0) ? low : high) = best;
-    ((f_new < 0) == (f_low < 0) ? f_low : f_high) = f_new;
-    if (f_new == 0 || std::abs(best.length - before.length) <= close || high.length - low.length <= close) {
-      if (std::abs(f_new) > least_of_a_jump * size) break;
-      return best;
+    double guess = interpolated_zero(places, values);
+    const Place& nearest = places.back();
+    if (!(guess > low && guess < high) || i % 8 == 7) guess = 0.5 * (low + high);
+    if (i > 0 && (std::abs(guess - nearest.length) <= close * width || values.back() == 0)) {
+      if (std::abs(values.back()) > least_of_a_jump * size) break;
+      return moved_on(nearest, guess - nearest.length);
     }
+    auto state = system_.step(last_, last_.tangent, guess);
+    if (!state) break;
+    values.push_back(function(*state));
+    places.push_back({guess, std::move(*state)});
+    ((values.back() < 0) == sign_low ? low : high) = guess;
   }
   return {};
 }
 
+// A short way along the tangent.
+PathTracer::Place PathTracer::moved_on(const Place& from, double length) const {
+  const double way = length / system_.dot(last_.tangent, from.state.tangent);
+  Place place{from.length + length, from.state};
+  advance(place.state.state, place.state.tangent.motion, way);
+  place.state.parameter += way * place.state.tangent.parameter;
+  return place;
+}
+
+// The parameter has no slope where it turns back, and need not be found as closely.
 std::optional<Landmark> PathTracer::landmark(const Event& event, const PathState& next, double& length) {
-  auto found = zero(event_function(event, next), {0, last_}, {step_, next});
+  auto found = zero(event_function(event, next), {0, last_}, {step_, next}, turns_back(last_, next) ? 1e-3 : 1e-5);
   if (!found) return {};
   length = found->length;
   Landmark result{std::move(found->state), event.kind, event.multiplicity, {}};
@@ -134,7 +160,7 @@ std::optional<Landmark> PathTracer::landmark(const Event& event, const PathState
 
 std::optional<Landmark> PathTracer::at_target(double target, const Place& from, const Place& to) {
   const auto distance = [target](const PathState& at) { return at.parameter - target; };
-  auto found = distance(to.state) == 0 ? std::optional(to) : zero(distance, from, to);
+  auto found = distance(to.state) == 0 ? std::optional(to) : zero(distance, from, to, 1e-5);
   if (!found) return {};
   const Direction ahead = found->state.tangent;
   const auto exact = system_.solve(found->state.state, target, system_.along_parameter(1), ahead);

@@ -7,7 +7,7 @@
 //   double branch point of a round rod on its axis: the index changes by two (without an energy: the determinant of
 //   motions in a plane changes its sign).
 // Otherwise it is halved; what still happens together in a step of `together` is one point.
-// Secants find the zero of the tangent's parameter part at a fold, of the determinant at a branch point (its root where
+// Inverse interpolation finds the zero of the tangent's parameter part at a fold, of the determinant at a branch point (its root where
 // double). A sign change without a zero is a jump to another branch, and the step is halved.
 #pragma once
 
@@ -54,7 +54,8 @@ class PathTracer {
   bool is_short_enough(const PathState& next);
   Event event(const PathState& next) const;
   Function event_function(const Event& event, const PathState& next) const;
-  std::optional<Place> zero(const Function& function, Place low, Place high);
+  std::optional<Place> zero(const Function& function, const Place& from, const Place& to, double close);
+  Place moved_on(const Place& from, double length) const;
   std::optional<Landmark> landmark(const Event& event, const PathState& next, double& length);
   bool add_targets(const Place& from, const Place& to, const std::vector<double>& targets,
                    std::vector<Landmark>& landmarks);
