@@ -16,7 +16,7 @@ using scene::PathStatus;
 using Kind = PathPoint::Kind;
 
 // Two states are the same if they lie closer than this, in rod lengths and rad; a located point's error is far less.
-constexpr double same_state = 1e-5;
+constexpr double same_state = 1e-4;
 
 double distance(const PathState& a, const PathState& b) {
   const BeamIncrement apart = difference(a.state, b.state);

@@ -15,8 +15,8 @@ constexpr double rotation_limit_rad = 0.2;  // of any node in a step
 constexpr double surprise_limit_rad = 0.02;  // between where the tangent pointed and where the step ends
 constexpr double smallest_cosine = 0.95;       // of the angle between the tangents at both ends
 constexpr double smallest_step = 1e-7;
-constexpr double together = 0.01;
-constexpr double least_of_a_jump = 1e-2;  // of a function at what should be its zero, to that at the step's ends
+constexpr double together = 0.05;
+constexpr std::size_t most_places = 6;  // that are interpolated
 
 bool turns_back(const PathState& from, const PathState& to) {
   return (from.tangent.parameter < 0) != (to.tangent.parameter < 0);
@@ -27,10 +27,9 @@ double ratio(const scene::Determinant& from, const scene::Determinant& to, int m
   return std::exp((to.log_size - from.log_size) / multiplicity);
 }
 
-// Of the places found last, three at most.
 template <typename Places>
 double interpolated_zero(const Places& places, const std::vector<double>& values) {
-  const std::size_t n = values.size(), first = n > 2 ? n - 3 : 0;
+  const std::size_t n = values.size(), first = n > most_places ? n - most_places : 0;
   double zero = 0;
   for (std::size_t i = first; i < n; ++i) {
     double share = 1;
@@ -110,46 +109,60 @@ PathTracer::Function PathTracer::event_function(const Event& event, const PathSt
   };
 }
 
-// Inverse interpolation through the last three places, or halves. At a branch point the equations are singular, so none
-// is solved much closer to it than `close` of the distance: the last piece is that of the tangent.
+// At a branch point the equations are singular: none is solved closer to it than about `apart` of the distance between
+// the two places, and the zero, like the state there, is interpolated between those found.
 std::optional<PathTracer::Place> PathTracer::zero(const Function& function, const Place& from, const Place& to,
-                                                  double close) {
+                                                  double apart) {
   constexpr int max_tries = 60;
-  const double width = to.length - from.length;
-  double low = from.length, high = to.length;
+  const double away = apart * (to.length - from.length);
   std::vector<Place> places{from, to};
   std::vector<double> values{function(from.state), function(to.state)};
-  const bool sign_low = values[0] < 0;
   const double size = std::max(std::abs(values[0]), std::abs(values[1]));
+  double low = from.length, high = to.length, last_guess = INFINITY;
+  bool is_close = false;
   for (int i = 0; i < max_tries; ++i) {
     double guess = interpolated_zero(places, values);
-    const Place& nearest = places.back();
     if (!(guess > low && guess < high) || i % 8 == 7) guess = 0.5 * (low + high);
-    if (i > 0 && (std::abs(guess - nearest.length) <= close * width || values.back() == 0)) {
-      if (std::abs(values.back()) > least_of_a_jump * size) break;
-      return moved_on(nearest, guess - nearest.length);
+    if (is_close) {
+      const std::size_t n = values.size();
+      const bool is_jump = std::max(std::abs(values[n - 1]), std::abs(values[n - 2])) > 8 * apart * size;
+      return is_jump ? std::nullopt : std::optional(interpolated(places, guess));
     }
-    auto state = system_.step(last_, last_.tangent, guess);
-    if (!state) break;
+    is_close = std::abs(guess - last_guess) <= 0.5 * away;
+    last_guess = guess;
+    const double length = guess + (places.back().length > guess ? -away : away);
+    auto state = system_.step(last_, last_.tangent, length);
+    if (!state) return {};
     values.push_back(function(*state));
-    places.push_back({guess, std::move(*state)});
-    ((values.back() < 0) == sign_low ? low : high) = guess;
+    places.push_back({length, std::move(*state)});
+    double& end = (values.back() < 0) == (values[0] < 0) ? low : high;
+    if (length > low && length < high) end = length;
   }
   return {};
 }
 
-// A short way along the tangent.
-PathTracer::Place PathTracer::moved_on(const Place& from, double length) const {
-  const double way = length / system_.dot(last_.tangent, from.state.tangent);
-  Place place{from.length + length, from.state};
-  advance(place.state.state, place.state.tangent.motion, way);
-  place.state.parameter += way * place.state.tangent.parameter;
-  return place;
+// By the polynomial through the places found last.
+PathTracer::Place PathTracer::interpolated(const std::vector<Place>& places, double length) {
+  const std::size_t n = places.size(), first = n > most_places ? n - most_places : 0;
+  const Place& base = places.back();
+  Place result{length, base.state};
+  BeamIncrement from_base = difference(base.state.state, base.state.state);
+  for (std::size_t i = first; i + 1 < n; ++i) {
+    double share = 1;
+    for (std::size_t j = first; j < n; ++j) {
+      if (j != i) share *= (length - places[j].length) / (places[i].length - places[j].length);
+    }
+    add(from_base, difference(base.state.state, places[i].state.state), share);
+    result.state.parameter += share * (places[i].state.parameter - base.state.parameter);
+  }
+  advance(result.state.state, from_base);
+  return result;
 }
 
-// The parameter has no slope where it turns back, and need not be found as closely.
 std::optional<Landmark> PathTracer::landmark(const Event& event, const PathState& next, double& length) {
-  auto found = zero(event_function(event, next), {0, last_}, {step_, next}, turns_back(last_, next) ? 1e-3 : 1e-5);
+  // Where a branch crosses, both the parameter's slope and the determinant's are zero.
+  const bool crosses = turns_back(last_, next) && event.kind == Kind::branch;
+  auto found = zero(event_function(event, next), {0, last_}, {step_, next}, crosses ? 0.05 : 1e-3);
   if (!found) return {};
   length = found->length;
   Landmark result{std::move(found->state), event.kind, event.multiplicity, {}};
@@ -160,7 +173,7 @@ std::optional<Landmark> PathTracer::landmark(const Event& event, const PathState
 
 std::optional<Landmark> PathTracer::at_target(double target, const Place& from, const Place& to) {
   const auto distance = [target](const PathState& at) { return at.parameter - target; };
-  auto found = distance(to.state) == 0 ? std::optional(to) : zero(distance, from, to, 1e-5);
+  auto found = distance(to.state) == 0 ? std::optional(to) : zero(distance, from, to, 1e-3);
   if (!found) return {};
   const Direction ahead = found->state.tangent;
   const auto exact = system_.solve(found->state.state, target, system_.along_parameter(1), ahead);

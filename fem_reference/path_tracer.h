@@ -54,8 +54,8 @@ class PathTracer {
   bool is_short_enough(const PathState& next);
   Event event(const PathState& next) const;
   Function event_function(const Event& event, const PathState& next) const;
-  std::optional<Place> zero(const Function& function, const Place& from, const Place& to, double close);
-  Place moved_on(const Place& from, double length) const;
+  std::optional<Place> zero(const Function& function, const Place& from, const Place& to, double apart);
+  static Place interpolated(const std::vector<Place>& places, double length);
   std::optional<Landmark> landmark(const Event& event, const PathState& next, double& length);
   bool add_targets(const Place& from, const Place& to, const std::vector<double>& targets,
                    std::vector<Landmark>& landmarks);
