@@ -31,6 +31,16 @@ void add(BeamIncrement& to, const BeamIncrement& what, double factor) {
   });
 }
 
+void add(Direction& to, const Direction& what, double factor) {
+  add(to.motion, what.motion, factor);
+  to.parameter += factor * what.parameter;
+}
+
+void scale(Direction& direction, double factor) {
+  scale(direction.motion, factor);
+  direction.parameter *= factor;
+}
+
 void scale(BeamIncrement& increment, double factor) {
   for (Vectors* values : {&increment.displacement_B, &increment.rotation_S, &increment.force_S}) {
     for (Eigen::Vector3d& value : *values) value *= factor;
@@ -51,9 +61,7 @@ double product(const Direction& a, const Direction& b, double reach) {
 
 void normalise(Direction& direction, const Direction& ahead, double reach) {
   const double size = std::sqrt(product(direction, direction, reach));
-  const double factor = (product(direction, ahead, reach) < 0 ? -1 : 1) / size;
-  scale(direction.motion, factor);
-  direction.parameter *= factor;
+  scale(direction, (product(direction, ahead, reach) < 0 ? -1 : 1) / size);
 }
 
 double largest_rotation(const BeamIncrement& increment) {

@@ -14,7 +14,9 @@ BeamIncrement no_motion(const BeamModel& model);
 
 // to += factor * what
 void add(BeamIncrement& to, const BeamIncrement& what, double factor);
+void add(Direction& to, const Direction& what, double factor);
 void scale(BeamIncrement& increment, double factor);
+void scale(Direction& direction, double factor);
 
 // Mean over the nodes of the products of displacements (in rod lengths) and rotations (in rad). Internal forces do not
 // count: where the rod hardly stretches they change without any motion.

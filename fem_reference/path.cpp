@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <deque>
 #include <utility>
 
@@ -160,19 +161,15 @@ double sign_of(const BeamIncrement& mode) {
 
 // A point on the other branch, a little away from the branch point.
 std::optional<PathState> Follower::leave(const BranchPoint& from) {
-  const Direction& tangent = from.state.tangent;
-  auto mode = system_.buckling_mode(from.state, from.multiplicity > 1);
-  if (!mode) return {};
-  const double along = system_.dot(*mode, tangent);
-  add(mode->motion, tangent.motion, -along);
-  mode->parameter -= along * tangent.parameter;
-  normalise(*mode, *mode, system_.parametric().reach());
-  const double sign = sign_of(mode->motion);
-  scale(mode->motion, sign);
-  mode->parameter *= sign;
-  for (const double step : {0.03, 0.01, 0.1, 0.003}) {  // chosen, not measured
-    auto found = system_.step(from.state, *mode, step);
-    if (found && distance(from.state, *found) < 3 * step) return found;
+  auto direction = system_.off_the_path(from.state, from.multiplicity > 1);
+  if (!direction) return {};
+  scale(*direction, sign_of(direction->motion));
+  for (const double step : {0.03, 0.01, 0.1, 3e-3, 1e-3, 3e-4}) {  // chosen, not measured
+    auto found = system_.step(from.state, *direction, step);
+    if (found && distance(from.state, *found) < 3 * step &&
+        std::abs(found->parameter - from.state.parameter) <= largest_step_) {
+      return found;
+    }
   }
   return {};
 }

@@ -131,8 +131,7 @@ std::optional<PathState> PathSystem::step(const PathState& from, const Direction
 }
 
 // Inverse iteration; the loads that stand for a mode act on the elements' ends alone.
-std::optional<Direction> PathSystem::buckling_mode(const PathState& at, bool is_double) {
-  assemble(at.state, at.parameter);
+std::optional<Direction> PathSystem::buckling_mode(bool is_double) {
   const auto order = static_cast<std::size_t>(model_.reference.order());
   Imbalance push;
   push.elements.assign(model_.elements.size(),
@@ -155,6 +154,21 @@ std::optional<Direction> PathSystem::buckling_mode(const PathState& at, bool is_
     }
   }
   return mode;
+}
+
+std::optional<Direction> PathSystem::off_the_path(const PathState& at, bool is_double) {
+  assemble(at.state, at.parameter);
+  const auto mode = buckling_mode(is_double);
+  if (!mode) return {};
+  Direction other{{}, 1};
+  system_.increment(slope_.at(at.state, at.parameter), other.motion);
+  add(other, *mode, -dot(other, *mode));
+  normalise(other, other, reach_);
+  const double along_mode = dot(at.tangent, *mode), along_other = dot(at.tangent, other);
+  scale(other, along_mode);
+  add(other, *mode, -along_other);
+  normalise(other, other, reach_);
+  return other;
 }
 
 Direction PathSystem::along_parameter(double sign) const {

@@ -39,8 +39,9 @@ class PathSystem {
   // From a point on in a direction.
   std::optional<PathState> step(const PathState& from, const Direction& direction, double length);
 
-  // The mode of the smallest eigenvalue at a branch point; of two equal ones the mode in the x-y plane.
-  std::optional<Direction> buckling_mode(const PathState& at, bool is_double);
+  // Away from the path at a branch point: of the two directions in which the equations hold, the mode that costs
+  // nothing (of a double point's the one in the x-y plane) and that with the parameter, what is orthogonal to the path.
+  std::optional<Direction> off_the_path(const PathState& at, bool is_double);
 
   Direction along_parameter(double sign) const;
   double dot(const Direction& a, const Direction& b) const { return product(a, b, reach_); }
@@ -58,6 +59,7 @@ class PathSystem {
   bool bordered_increment(const BeamState& state, double parameter, const Direction& fixed, Direction& increment);
   std::optional<PathState> judged(BeamState state, double parameter, const Direction& ahead);
   void place_pin(const BeamState& state);
+  std::optional<Direction> buckling_mode(bool is_double);
 
   ParametricModel parametric_;
   ParameterSlope slope_;
