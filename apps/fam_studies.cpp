@@ -122,6 +122,7 @@ int main(int argc, char** argv) {
   StudyArguments arguments;
   arguments.options.cases = STUDIES_DIR "/cases";
   arguments.options.pages = STUDIES_DIR;
+  arguments.options.committed = STUDIES_DIR "/../results";
   arguments.options.allocations = allocation_count;
   arguments.options.data = STUDY_DATA_DIR;
   for (const studies::Study& study : studies::all_studies()) {

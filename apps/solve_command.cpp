@@ -53,6 +53,14 @@ void add_choice(CLI::App* command, const std::string& option, Value& target, con
 
 void add_scene_and_options(CLI::App* command, std::string& scene_path, fam::Options& options) {
   command->add_option("scene", scene_path, "Scene file (JSON), or - for standard input")->required();
+  add_model_options(command, options);
+}
+
+void add_svg_option(CLI::App* command, std::string& svg_path, const std::string& what) {
+  command->add_option("--svg", svg_path, what)->check(CLI::Validator(no_name, "FILE"));
+}
+
+void add_model_options(CLI::App* command, fam::Options& options) {
   auto* tolerance = command->add_option("--tolerance-mm", options.tolerance_mm,
                                         "Largest error of any place along the rod, mm (default: 1e-3 of the length)");
   tolerance->check(CLI::Validator(not_positive, "> 0"));
@@ -78,8 +86,7 @@ CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments) {
       {{"bend_twist", fam::TwistOrder::bend_twist}, {"twist_bend", fam::TwistOrder::twist_bend}});
   solve->add_option("--format", arguments.format, "text, json or csv (default: text)")
       ->check(CLI::IsMember({"text", "json", "csv"}));
-  solve->add_option("--svg", arguments.svg_path, "Write a picture of the deformed centreline to this file")
-      ->check(CLI::Validator(no_name, "FILE"));
+  add_svg_option(solve, arguments.svg_path, "Write a picture of the deformed centreline to this file");
   solve->add_flag("--derivatives", arguments.derivatives,
                   "Add the tip's derivatives by loads, sections and a wrench at the tip to --format json");
   solve->callback([solve, &options, &arguments] {

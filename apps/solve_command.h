@@ -25,6 +25,10 @@ struct SolveArguments {
 // The scene, --tolerance-mm, --arcs, --law, --model.
 void add_scene_and_options(CLI::App* command, std::string& scene_path, fam::Options& options);
 
+// --tolerance-mm, --arcs, --law, --model.
+void add_model_options(CLI::App* command, fam::Options& options);
+void add_svg_option(CLI::App* command, std::string& svg_path, const std::string& what);
+
 // Adds `solve` with the options that every method has.
 CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments);
 

@@ -2,7 +2,7 @@
 //
 // Where the loads are too small for a second equilibrium (Shooting::one_equilibrium) the full load is solved for at
 // once. Beyond, it grows from zero in steps; a step is taken only if Newton converges and no segment end turns by more
-// than largest_turn_rad in it nor lies farther than largest_surprise_rad from where the last two steps pointed. Beside
+// than largest_turn_rad in it nor lies farther than largest_surprise_rad from where the last steps pointed. Beside
 // a buckling or turning point the branches lie too close to be told apart by their distance, but the sign of the
 // equations' determinant differs from one to the next: a step that changes it is shortened as well, or one that leads
 // on to where it vanishes (scene/branch_watch.h). Where the loads have an energy one that ends unstable is shortened as
@@ -57,16 +57,23 @@ class LoadGrowth {
   scene::Status grow(Shooting<D>& shooting, double size);
   void start_watch(const Shooting<D>& shooting);
   void predict(const Shooting<D>& shooting, double factor);
+  void extrapolate(const Nodes& now, const Nodes& earlier, double times);
+  // Before or after a step to where the determinant is this.
+  bool nears_critical(const scene::Determinant& now) const {
+    return near_critical_ || scene::has_fallen(start_determinant_, now);
+  }
+  double growth_of_step(double surprise) const;
   std::optional<double> try_step(Shooting<D>& shooting, double to);
   bool is_unstable(const Shooting<D>& shooting) { return judge(shooting).conjugate_points > 0; }
   bool stays_on_branch(Shooting<D>& shooting, double step);
   bool gives_up(const Shooting<D>& shooting, double step);
 
-  Nodes start_, guess_;  // of a step
-  Nodes previous_;       // at the last load but one
-  double load_factor_ = 0, previous_factor_ = 0, first_step_ = 1;
+  Nodes start_, guess_;       // of a step
+  Nodes previous_, earlier_;  // at the last loads but one and two
+  double load_factor_ = 0, previous_factor_ = 0, earlier_factor_ = 0, first_step_ = 1;
   scene::BranchWatch branch_;
   scene::Determinant start_determinant_;  // where the way starts
+  bool near_critical_ = false;            // now; where it is not, the way is taken for smooth
   bool watches_determinant_ = false;
   bool watches_stability_ = false;  // the loads have an energy, and the rod was stable so far
   bool may_fall_ = false;           // where its symmetry can hold it

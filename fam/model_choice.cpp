@@ -14,14 +14,20 @@ using Eigen::Vector2d;
 using scene::Span;
 
 // A bound on the tip's shift by shear and stretch: the strain |K_v^-1 n| summed along the rod, |n| bounded by the
-// forces beyond. The shift of the tip by the strains themselves; what they change in the moments is of their order.
+// forces beyond. The shift of the tip by the strains themselves; what they change in the moments is of their order
+// where a load is fixed. Loads that all follow turn with what is shifted: of 1098 random scenes with a bound below 1e-2
+// L two then moved 66 and 78 times as far as the strains alone, at a load length of 46 and at turns of 156 rad.
 double shear_bound_mm(std::span<const Span> spans) {
-  double bound = 0;
+  double bound = 0, load_length = 0, turn_rad = 0;
   walk_from_tip(spans, OneEach{}, [&](const LoadedCell& span) {
     const double force_N = span.force_N + straight_tendons(span.span).force_N.norm();
+    const double least_Nmm2 = least_stiffness_Nmm2(span.span);
     bound += span.length_mm * linear_compliance_per_N(span.span) * force_N;
+    load_length += span.load_length(least_Nmm2, true);
+    turn_rad += span.length_mm * span.moment_Nmm / least_Nmm2;
   });
-  return 3 * bound;
+  const double amplification = scene::all_loads_follow(spans) ? 1 + load_length * load_length + turn_rad : 1;
+  return 3 * amplification * bound;
 }
 
 void turn(Span& span, const Matrix3d& rotation_PB, bool swap) {

@@ -261,7 +261,7 @@ bool Shooting<D>::evaluate_system(bool keep_factors, bool& mismatches_are_small)
 
 // All segments together.
 template <int D>
-bool Shooting<D>::newton_segments(bool keep_factors, double tolerance) {
+bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const scene::Determinant* start) {
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
     ++newton_steps_;
@@ -272,15 +272,16 @@ bool Shooting<D>::newton_segments(bool keep_factors, double tolerance) {
     const double size = apply(system_.right());
     const double shrinkage = std::isfinite(last) ? size / last : 0.1;
     if (size * (keep_factors ? shrinkage : newton_curvature * size) <= tolerance) return small;
-    keep_factors = keep_factors && slopes_last(true, size, last);
+    const bool may_keep = keep_factors || (start && !scene::has_fallen(*start, determinant()));
+    keep_factors = may_keep && slopes_last(keep_factors, size, last);
     last = size;
   }
   return false;
 }
 
 template <int D>
-bool Shooting<D>::newton(double tolerance) {
-  return segments_.size() == 1 ? newton_one_segment(false, tolerance) : newton_segments(false, tolerance);
+bool Shooting<D>::newton(double tolerance, const scene::Determinant* start) {
+  return segments_.size() == 1 ? newton_one_segment(false, tolerance) : newton_segments(false, tolerance, start);
 }
 
 template <int D>
@@ -329,13 +330,23 @@ double Shooting<D>::log_growth() const {
 }
 
 template <int D>
-scene::Determinant Shooting<D>::determinant(bool exact) const {
+scene::Determinant Shooting<D>::determinant() const {
   if (segments_.size() > 1) return {system_.log_determinant(), system_.determinant_is_negative(), log_growth()};
-  SegmentEquations equations;
-  if (exact) evaluate_segment<rotations>(0, equations);
-  const double determinant =
-      (exact ? equations.arrival.template topLeftCorner<rotations, rotations>().eval() : slope_).determinant();
+  const double determinant = slope_.determinant();
   return {std::log(std::abs(determinant)), determinant < 0};
+}
+
+template <int D>
+scene::Determinant Shooting<D>::exact_determinant() {
+  SegmentEquations equations;
+  bool small;
+  if (segments_.size() > 1) {
+    evaluate_system(false, small);
+  } else {
+    evaluate_segment<rotations>(0, equations);
+    slope_ = equations.arrival.template topLeftCorner<rotations, rotations>();
+  }
+  return determinant();
 }
 
 template class Shooting<2>;

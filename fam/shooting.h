@@ -70,8 +70,9 @@ class Shooting {
     for (std::size_t k = 0; k < segments_.size(); ++k) nodes_[k] = state_at(segments_[k].end_arc - 1);
     nodes_.back().wrench = {};
   }
-  // From the nodes as they are to those of the present load.
-  bool newton(double tolerance);
+  // From the nodes as they are to those of the present load. start: the determinant where the way began; where the
+  // present one has not fallen from it, the derivatives of the first step serve for the rest.
+  bool newton(double tolerance, const scene::Determinant* start = nullptr);
   // The full load from the rest shape; first with a quarter of the arcs, whose derivatives then serve for all.
   bool solve_at_once();
   // The full load from the nodes as they are.
@@ -79,8 +80,9 @@ class Shooting {
   // The full load from the solution of the same spans with fewer arcs, each of which became several.
   bool solve_from(const Shooting& fewer);
 
-  // Of the equations' derivatives at the solution, after newton(); exact, or as that left them.
-  scene::Determinant determinant(bool exact) const;
+  // Of the equations' derivatives, after newton(): as that left them, or at the solution.
+  scene::Determinant determinant() const;
+  scene::Determinant exact_determinant();
 
   // Clamp to tip: the segments, and the state at the distal end of each.
   const std::vector<ArcRange>& segments() const { return segments_; }
@@ -113,7 +115,7 @@ class Shooting {
   bool evaluate_system(bool keep_factors, bool& mismatches_are_small);
   // fresh_slope, keep_factors: the derivatives at hand serve for the first step.
   bool newton_one_segment(bool fresh_slope, double tolerance);
-  bool newton_segments(bool keep_factors, double tolerance);
+  bool newton_segments(bool keep_factors, double tolerance, const scene::Determinant* start = nullptr);
   // Whether derivatives that led to a step of this size do for the next one too.
   static bool slopes_last(bool were_kept, double size, double last_size) {
     return size < 0.4 && (!were_kept || size < 0.5 * last_size);

@@ -11,6 +11,8 @@ struct Determinant {
 };
 // How far the logarithm of the size has fallen, for another reason than that the rod has become less taut.
 double log_fall(const Determinant& from, const Determinant& to);
+// Whether it has fallen, from the start of a way on, so far that a critical point may be near.
+bool has_fallen(const Determinant& start, const Determinant& now);
 
 class BranchWatch {
  public:

@@ -16,6 +16,9 @@ enum class PathParameter {
   rest_curvature_factor,  // multiplies the rest curvatures of all sections
   value                   // is a number of one load itself
 };
+const char* name(PathParameter parameter);
+
+constexpr int max_path_branches = 1000;
 
 struct PathRequest {
   Scene scene;
@@ -29,7 +32,11 @@ struct PathRequest {
   std::optional<double> largest_step;  // between points, of the parameter
 };
 
-// The scene at a value of the parameter. Not validated: see validate().
+// Throws SceneError at the first rule that the request breaks; `source` names it in the message, usually its file. The
+// JSON paths are those of a path file: the scene's values under "scene", the others under "path".
+void validate(const PathRequest& request, const std::string& source = "path");
+
+// The scene at a value of the parameter.
 Scene scene_at(const PathRequest& request, double parameter);
 
 struct PathPoint {
@@ -65,5 +72,10 @@ struct Path {
   std::string message;  // one line, where and why it ended early; empty when complete
   std::vector<PathPoint> points;
 };
+
+// Where a rod that leaves a stable branch at a fold is next in stable equilibrium on the path, at the fold's parameter
+// (between two points, by a straight line). Statics does not say that it lands there. Empty: none, or no fold that a
+// stable rod meets.
+std::optional<PathPoint> landing(const Path& path, std::size_t fold);
 
 }  // namespace scene

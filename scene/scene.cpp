@@ -1,34 +1,22 @@
 #include "scene/scene.h"
 
+#include "scene/rule.h"
+
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <set>
 
 namespace scene {
 namespace {
 
-std::string text(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  return {buffer, end};
-}
-
-template <class Vector>
-std::string text(const Eigen::MatrixBase<Vector>& values) {
-  std::string list = "[";
-  for (int i = 0; i < values.size(); ++i) list += (i ? ", " : "") + text(static_cast<double>(values[i]));
-  return list + "]";
-}
-
 // Checks one scene; each check names the JSON path of the value it looks at.
 class Checker {
  public:
-  explicit Checker(const std::string& source) : source_(source) {}
+  Checker(const std::string& source, const std::string& inside) : source_(source), inside_(inside) {}
 
   template <class Value>
   void require(bool rule_holds, const std::string& path, const Value& value, const std::string& rule) const {
-    if (!rule_holds) throw SceneError(source_ + ": " + path + " = " + text(value) + ": " + rule);
+    scene::require(rule_holds, source_, inside_ + path, value, rule);
   }
 
   void finite(const std::string& path, double value) const {
@@ -138,6 +126,7 @@ class Checker {
 
  private:
   const std::string& source_;
+  const std::string& inside_;
   double length_mm_ = 0;
   bool has_mass_ = false;
   std::set<std::array<double, 2>> tendon_offsets_;
@@ -151,8 +140,8 @@ double length_mm(const Scene& scene) {
   return length;
 }
 
-void validate(const Scene& scene, const std::string& source) {
-  Checker(source).check(scene);
+void validate(const Scene& scene, const std::string& source, const std::string& inside) {
+  Checker(source, inside).check(scene);
 }
 
 }  // namespace scene

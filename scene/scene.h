@@ -36,7 +36,7 @@ constexpr int max_tendon_offsets = 32;  // different ones
 double length_mm(const Scene& scene);
 
 // Throws SceneError at the first rule of the scene format that the values break; `source` names the scene in the
-// message, usually its file.
-void validate(const Scene& scene, const std::string& source = "scene");
+// message, usually its file; `inside`: the JSON path of the scene in it, with a point at its end.
+void validate(const Scene& scene, const std::string& source = "scene", const std::string& inside = "");
 
 }  // namespace scene

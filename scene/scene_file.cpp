@@ -1,102 +1,19 @@
 #include "scene/scene_file.h"
 
-#include "scene/json_file.h"
+#include "scene/json_node.h"
 #include "scene/load_visitor.h"
+#include "scene/scene_reader.h"
 
 #include <filesystem>
 #include <fstream>
-#include <initializer_list>
 #include <iostream>
 #include <iterator>
 
 namespace scene {
 namespace {
 
+using Node = JsonNode;
 using Eigen::Vector2d;
-using Eigen::Vector3d;
-
-// A JSON value with its path, read key by key.
-class Node {
- public:
-  Node(const Json& json, std::string path, const std::string& source)
-      : json_(json), path_(std::move(path)), source_(source) {}
-
-  [[noreturn]] void refuse(const std::string& rule) const { scene::refuse(source_, path_, dump(json_), rule); }
-
-  void require_object() const {
-    if (!json_.is_object()) refuse("must be an object");
-  }
-
-  // Refuses anything but an object with these keys.
-  void allow_keys(std::initializer_list<const char*> keys) const {
-    require_object();
-    for (const auto& [key, value] : json_.items()) {
-      bool known = false;
-      std::string all;
-      for (const char* allowed : keys) {
-        known |= key == allowed;
-        all += (all.empty() ? "" : ", ") + std::string(allowed);
-      }
-      if (!known) scene::refuse(source_, join(path_, key), dump(value), "unknown key; known here: " + all);
-    }
-  }
-
-  bool has(const char* key) const { return json_.contains(key); }
-
-  Node at(const char* key) const {
-    if (!has(key)) scene::refuse(source_, join(path_, key), "(missing)", "the key is required");
-    return {json_.at(key), join(path_, key), source_};
-  }
-
-  std::vector<Node> items() const {
-    if (!json_.is_array()) refuse("must be an array");
-    std::vector<Node> nodes;
-    for (std::size_t i = 0; i < json_.size(); ++i) {
-      nodes.emplace_back(json_[i], path_ + "[" + std::to_string(i) + "]", source_);
-    }
-    return nodes;
-  }
-
-  double number(const std::string& rule = "must be a number") const {
-    if (!json_.is_number()) refuse(rule);
-    return json_.get<double>();
-  }
-
-  double number_or(const char* key, double otherwise) const { return has(key) ? at(key).number() : otherwise; }
-
-  std::string string() const {
-    if (!json_.is_string()) refuse("must be a string");
-    return json_.get<std::string>();
-  }
-
-  template <int Size>
-  Eigen::Matrix<double, Size, 1> vector() const {
-    if (!json_.is_array() || json_.size() != Size) refuse("must be an array of " + std::to_string(Size) + " numbers");
-    Eigen::Matrix<double, Size, 1> values;
-    for (int i = 0; i < Size; ++i) values[i] = items()[static_cast<std::size_t>(i)].number();
-    return values;
-  }
-
-  // A number for both axes, or [y, z].
-  Vector2d number_or_pair() const {
-    if (json_.is_number()) return Vector2d::Constant(number());
-    if (!json_.is_array()) refuse("must be a number or an array of 2 numbers");
-    return vector<2>();
-  }
-
-  bool is_tip() const { return json_ == "tip"; }
-
-  Frame frame() const {
-    if (json_ == "follower") return Frame::follower;
-    if (json_ == "fixed") return Frame::fixed;
-    refuse("must be \"follower\" or \"fixed\"");
-  }
-
- private:
-  const Json& json_;
-  std::string path_;
-  const std::string& source_;
-};
 
 Stiffness read_stiffness(const Node& node) {
   node.allow_keys({"bending_Nmm2", "torsion_Nmm2", "axial_N", "shear_N", "mass_per_length_kg_per_m"});
@@ -131,9 +48,13 @@ Section read_section(const Node& node) {
   return section;
 }
 
+Frame read_frame(const Node& node) {
+  return node.one_of({"follower", "fixed"}) == 0 ? Frame::follower : Frame::fixed;
+}
+
 double read_place(const Node& node, double length) {
   const Node at = node.at("at");
-  if (at.is_tip()) return length;
+  if (at.is("tip")) return length;
   return at.number("must be a number or \"tip\"");
 }
 
@@ -144,16 +65,16 @@ struct LoadReader {
 
   Load operator()(const Force&) const {
     node.allow_keys({"kind", "at", "frame", "value_N", "offset_mm"});
-    return Force{read_place(node, length), node.at("frame").frame(), node.at("value_N").vector<3>(),
+    return Force{read_place(node, length), read_frame(node.at("frame")), node.at("value_N").vector<3>(),
                  node.has("offset_mm") ? node.at("offset_mm").vector<2>() : Vector2d::Zero()};
   }
   Load operator()(const Moment&) const {
     node.allow_keys({"kind", "at", "frame", "value_Nmm"});
-    return Moment{read_place(node, length), node.at("frame").frame(), node.at("value_Nmm").vector<3>()};
+    return Moment{read_place(node, length), read_frame(node.at("frame")), node.at("value_Nmm").vector<3>()};
   }
   Load operator()(const DistributedForce&) const {
     node.allow_keys({"kind", "from_mm", "to_mm", "frame", "value_N_per_mm"});
-    return DistributedForce{node.number_or("from_mm", 0), node.number_or("to_mm", length), node.at("frame").frame(),
+    return DistributedForce{node.number_or("from_mm", 0), node.number_or("to_mm", length), read_frame(node.at("frame")),
                             node.at("value_N_per_mm").vector<3>()};
   }
   Load operator()(const Gravity&) const {
@@ -185,7 +106,9 @@ Load read_load(const Node& node, double length) {
   kind_node.refuse("must be " + names);
 }
 
-Scene read(const Node& node) {
+}  // namespace
+
+Scene read_scene(const JsonNode& node) {
   node.allow_keys({"title", "rod", "loads"});
   Scene scene;
   if (node.has("title")) scene.title = node.at("title").string();
@@ -199,9 +122,7 @@ Scene read(const Node& node) {
   return scene;
 }
 
-}  // namespace
-
-Scene read_scene(std::istream& input, const std::string& source) {
+std::string read_text(std::istream& input, const std::string& source) {
   std::string text;
   char block[1 << 16];
   while (input.read(block, sizeof block), input.gcount() > 0) {
@@ -210,18 +131,37 @@ Scene read_scene(std::istream& input, const std::string& source) {
       refuse(source, "", "(too large)", "a scene file has at most " + std::to_string(max_scene_file_bytes) + " bytes");
     }
   }
+  return text;
+}
+
+std::string read_text_file(const std::string& path, std::string& source) {
+  source = path == "-" ? "(standard input)" : path;
+  if (path == "-") return read_text(std::cin, source);
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path))
+    throw SceneError(path + ": (file) = (unreadable): must be a readable scene file");
+  return read_text(file, source);
+}
+
+namespace {
+
+Scene read_scene(const std::string& text, const std::string& source) {
   const Json json = parse(text, source);
-  Scene scene = read(Node(json, "", source));
+  Scene scene = read_scene(JsonNode(json, "", source));
   validate(scene, source);
   return scene;
 }
 
+}  // namespace
+
+Scene read_scene(std::istream& input, const std::string& source) {
+  return read_scene(read_text(input, source), source);
+}
+
 Scene read_scene_file(const std::string& path) {
-  if (path == "-") return read_scene(std::cin, "(standard input)");
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
-    throw SceneError(path + ": (file) = (unreadable): must be a readable scene file");
-  return read_scene(file, path);
+  std::string source;
+  const std::string text = read_text_file(path, source);
+  return read_scene(text, source);
 }
 
 }  // namespace scene

@@ -14,6 +14,7 @@ struct StudyOptions {
   std::filesystem::path cases;               // folder of the scene files
   std::filesystem::path data;                // folder of the published numbers
   std::filesystem::path pages;               // folder of the studies' folders with their page.md
+  std::filesystem::path committed;           // results/ as the project holds it
   bool quick = false;                        // the smallest setting that still runs every line
   Progress::Style progress = Progress::Style::lines;
   std::size_t (*allocations)() = nullptr;  // so far, where the program counts them

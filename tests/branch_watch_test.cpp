@@ -22,4 +22,13 @@ TEST(BranchWatch, TellsAChangeOfSignAndTheWayToAZero) {
   EXPECT_EQ(watch.longest_step(1), HUGE_VAL);
 }
 
+// A taut rod's determinant falls as it slackens, which leads to no critical point.
+TEST(BranchWatch, TellsADeterminantThatHasFallen) {
+  EXPECT_FALSE(scene::has_fallen({0, false}, {std::log(0.5), false}));
+  EXPECT_TRUE(scene::has_fallen({0, false}, {std::log(0.1), false}));
+  EXPECT_TRUE(scene::has_fallen({0, false}, {0, true}));
+  EXPECT_FALSE(scene::has_fallen({5, false, 5}, {2, false, 2}));
+  EXPECT_TRUE(scene::has_fallen({5, false, 2}, {2, false, 2}));
+}
+
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "fam/load_length.h"
 #include "fam/model_choice.h"
+#include "studies/scenes/random_scene.h"
 
 namespace {
 
@@ -71,6 +72,25 @@ TEST(SurvivorsFam, LeftOutShearIsInTheEstimate) {
     EXPECT_NEAR(moved_mm, F * L / kGA, 1e-3);
     EXPECT_GE(without.error_estimate_mm, moved_mm);
     EXPECT_TRUE(fact<bool>(by_fam(scene, 5 * moved_mm), "shear"));
+  }
+}
+
+// A scene whose loads all follow, 46 load lengths long, and one coiled by 156 rad: the strains shift their tips by 4e-6
+// and 2e-3 L, and the loads, which turn with that, by 1.3e-3 and 0.5 L.
+TEST(SurvivorsFam, LeftOutShearThatFollowerLoadsAmplify) {
+  for (const std::uint64_t seed : {std::uint64_t{4110}, studies::mixed_seed(2640)}) {
+    const Scene scene = studies::random_scene(seed);
+    ASSERT_TRUE(scene::all_loads_follow(scene::spans_of(scene)));
+    const double L = scene::length_mm(scene);
+    fam::Options options;
+    options.model = fam::RodModel::reissner;
+    options.tolerance_mm = 1e-5 * L;
+    const Equilibrium true_rod = fam::solve(scene, options);
+    for (const double tolerance : {1e-1, 1e-2, 1e-3}) {
+      const Equilibrium found = by_fam(scene, tolerance * L);
+      ASSERT_TRUE(true_rod.converged() && found.converged());
+      EXPECT_LE((tip(found) - tip(true_rod)).norm(), tolerance * L) << seed;
+    }
   }
 }
 

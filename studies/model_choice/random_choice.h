@@ -4,6 +4,7 @@
 #include "studies/report/progress.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,11 @@ RandomChoice random_choice(std::uint64_t seed, ToAsk asked);
 // on a quarter, all kinds and tolerances, the fewest arcs are looked for: that takes most of the time. By two threads.
 constexpr std::uint64_t exact_every = 25;
 std::vector<RandomChoice> random_choices(std::uint64_t count, Progress::Style style);
+
+// The file of them, and those of its rows that follow the ones at hand.
+inline const std::string random_file = "accuracy_random.csv";
+std::string random_csv(const std::vector<RandomChoice>& choices);
+void add_random_choices(const std::filesystem::path& file, std::vector<RandomChoice>& choices);
 
 struct RandomCounts {
   int scenes = 0, unsolved = 0, unjudged = 0;

@@ -81,26 +81,6 @@ std::string neighbours_csv(const ModelChoiceData& data) {
   return table.csv({"The chosen model with one thing changed; arcs shared out by length."});
 }
 
-std::string random_csv(const ModelChoiceData& data) {
-  Table table({"seed", "kind", "tolerance_over_L", "status", "judge", "space", "shear", "march", "gives_way", "arcs",
-               "error_over_L", "exact_error_over_L", "off_plane_over_L", "shear_needed", "fewest_arcs",
-               "fewer_by_another_law"});
-  const auto flag = [](bool is) { return is ? "1" : "0"; };
-  for (const RandomChoice& c : data.random) {
-    const bool known = c.judged();
-    table.add({std::to_string(c.seed), kind_of(c.seed), scientific(c.tolerance, 0), c.status, c.judge, flag(c.space),
-               flag(c.shear), flag(c.march), flag(c.gives_way), std::to_string(c.arcs),
-               known ? scientific(c.error, 0) : "", c.exact_error >= 0 ? scientific(c.exact_error, 0) : "",
-               known && c.space ? scientific(c.off_plane, 0) : "", known && c.shear ? flag(c.shear_needed) : "",
-               c.arcs_looked_for ? std::to_string(c.fewest_arcs) : "",
-               c.arcs_looked_for ? flag(c.fewer_by_another_law) : ""});
-  }
-  return table.csv(
-      {"judge: FAM asked for a thousandth of the tolerance, or the exact reference where that is no "
-       "answer; exact_error: by it on every 25th scene.",
-       "off_plane: how far the shape leaves the plane through the undeformed axis that suits it best."});
-}
-
 std::string ladder_times_csv(const ModelChoiceData& data) {
   Table table(with_timing_columns(joined(joined({"scene"}, model_columns), {"status"})));
   for (const ChoiceScene& scene : data.scenes) {
@@ -140,7 +120,7 @@ std::string rung_error(const Rung& rung) {
 
 std::map<std::string, std::string> model_choice_tables(const ModelChoiceData& data) {
   return {{"accuracy_ladder.csv", ladder_csv(data)},         {"accuracy_chosen.csv", chosen_csv(data)},
-          {"accuracy_neighbours.csv", neighbours_csv(data)}, {"accuracy_random.csv", random_csv(data)},
+          {"accuracy_neighbours.csv", neighbours_csv(data)}, {random_file, random_csv(data.random)},
           {"timing_ladder.csv", ladder_times_csv(data)},     {"timing_chosen.csv", chosen_times_csv(data)}};
 }
 

@@ -30,6 +30,23 @@ Centreline centreline(const scene::Equilibrium& result, const std::string& name,
   return line;
 }
 
+void draw_shapes(Svg& svg, Point corner, double size, const std::vector<Centreline>& lines, const View& view) {
+  Axis x = axis_over(lines, view.right);
+  Axis y = axis_over(lines, view.up);
+  equal_scale(x, y, size, size);
+  Panel panel(svg, corner, size, size, x, y);
+  panel.frame();
+  for (const Centreline& line : lines) {
+    std::vector<Point> points;
+    for (const auto& p : line.positions_B_mm) points.push_back({p[view.right], p[view.up]});
+    if (points.empty()) continue;
+    if (line.dotted) panel.dots(points, line.colour, 2.2);
+    else panel.curve(points, {line.colour, 1.8, line.dash});
+    if (!line.name.empty()) panel.name(points.back(), line.name, line.colour);
+  }
+  panel.place_names();
+}
+
 std::string shape_chart(const std::vector<Centreline>& lines, const std::vector<View>& views, const std::string& title,
                         const std::string& subtitle) {
   const double size = views.size() == 1 ? 520 : 360;
@@ -37,20 +54,7 @@ std::string shape_chart(const std::vector<Centreline>& lines, const std::vector<
   Svg svg(left + static_cast<double>(views.size()) * (size + gap) - 20, top + size + 60, title,
           "Deformed centrelines in the base frame, clamp at the origin.", subtitle);
   for (std::size_t v = 0; v < views.size(); ++v) {
-    Axis x = axis_over(lines, views[v].right);
-    Axis y = axis_over(lines, views[v].up);
-    equal_scale(x, y, size, size);
-    Panel panel(svg, {left + static_cast<double>(v) * (size + gap), top}, size, size, x, y);
-    panel.frame();
-    for (const Centreline& line : lines) {
-      std::vector<Point> points;
-      for (const auto& p : line.positions_B_mm) points.push_back({p[views[v].right], p[views[v].up]});
-      if (points.empty()) continue;
-      if (line.dotted) panel.dots(points, line.colour, 2.2);
-      else panel.curve(points, {line.colour, 1.8, line.dash});
-      if (!line.name.empty()) panel.name(points.back(), line.name, line.colour);
-    }
-    panel.place_names();
+    draw_shapes(svg, {left + static_cast<double>(v) * (size + gap), top}, size, lines, views[v]);
   }
   return svg.str();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/equilibrium.h"
+#include "studies/report/svg.h"
 
 #include <string>
 #include <vector>
@@ -23,6 +24,9 @@ Centreline centreline(const scene::Equilibrium& result, const std::string& name,
 struct View {
   int right, up;
 };
+
+// One panel of size x size pixels.
+void draw_shapes(Svg& svg, Point corner, double size, const std::vector<Centreline>& lines, const View& view);
 
 // One panel a view, beside each other; a planar set needs one, larger.
 std::string shape_chart(const std::vector<Centreline>& lines, const std::vector<View>& views, const std::string& title,
