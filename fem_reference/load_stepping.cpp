@@ -81,7 +81,8 @@ Attempt iterate(BeamSystem& system, const BeamState& start, BeamState& state, do
     }
     ++attempt.iterations;
     advance(state, increment);
-    const double this_increment = std::max(largest_entry(increment.displacement_B), largest_entry(increment.rotation_S));
+    const double this_increment =
+        std::max(largest_entry(increment.displacement_B), largest_entry(increment.rotation_S));
     to_come = next_increment(last_increment, this_increment);
     last_increment = this_increment;
   }

@@ -27,9 +27,10 @@ struct SteppingResult {
   scene::Status status = scene::Status::not_converged;
   std::string message;
   BeamState state;
-  std::optional<bool> stable;  // stability.h; empty where the loads are not conservative, and where it is neutral
-  int load_steps = 0;          // accepted
-  int newton_iterations = 0;   // all, those of rejected steps included
+  std::optional<double> limit;  // the load factor of a fold, which limit.h finds
+  std::optional<bool> stable;   // stability.h; empty where the loads are not conservative, and where it is neutral
+  int load_steps = 0;           // accepted
+  int newton_iterations = 0;    // all, those of rejected steps included
 };
 
 // The increment that Newton's iteration would add next, at most: it falls by more from one to the next than it did from

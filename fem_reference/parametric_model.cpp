@@ -16,14 +16,12 @@ bool is_round(const ElementData& element) {
 }
 
 bool turns_freely(const BeamModel& model) {
-  return model.symmetry == scene::Symmetry::axis &&
-         std::all_of(model.elements.begin(), model.elements.end(), is_round);
+  return model.symmetry == scene::Symmetry::axis && std::all_of(model.elements.begin(), model.elements.end(), is_round);
 }
 
 bool planes_apart(const BeamModel& model) {
-  const bool untwisted = std::all_of(model.elements.begin(), model.elements.end(), [](const ElementData& element) {
-    return element.rest_curvature.isZero(0);
-  });
+  const bool untwisted = std::all_of(model.elements.begin(), model.elements.end(),
+                                     [](const ElementData& element) { return element.rest_curvature.isZero(0); });
   return untwisted && std::all_of(model.loads.begin(), model.loads.end(), [](const NodalLoad& load) {
            return load.follower_S.moment_Nmm.isZero(0) && load.fixed_B.moment_Nmm.isZero(0);
          });
@@ -52,13 +50,17 @@ double ParametricModel::reach() const {
   return to == from ? 1 : std::abs(to - from);
 }
 
-ParametricModel parametric_model(const scene::PathRequest& request, const Options& options) {
+BeamModel beam_model(const scene::Scene& scene, const Options& options) {
+  const std::vector<scene::Span> spans = scene::spans_of(scene);
   const ReferenceElement reference =
       reference_element(options.order, options.order + (options.full_integration ? 1 : 0));
-  const bool kirchhoff = options.model == RodModel::kirchhoff;
-  const auto at = [request, reference, kirchhoff, elements = options.elements](double parameter) {
-    const std::vector<scene::Span> spans = scene::spans_of(scene::scene_at(request, parameter));
-    return beam_model(spans, scene::cells_per_span(spans, elements), reference, kirchhoff);
+  return beam_model(spans, scene::cells_per_span(spans, options.elements), reference,
+                    options.model == RodModel::kirchhoff);
+}
+
+ParametricModel parametric_model(const scene::PathRequest& request, const Options& options) {
+  const auto at = [request, options](double parameter) {
+    return beam_model(scene::scene_at(request, parameter), options);
   };
   return {at, request.from, request.to, request.parameter == scene::PathParameter::turn_rad};
 }
@@ -88,7 +90,8 @@ Imbalance ParameterSlope::at(const BeamState& state, double parameter) {
 PathFacts path_facts(const ParametricModel& parametric) {
   PathFacts facts{true, true, true};
   for (const double share : {0.0, 0.381966, 1.0}) {  // chosen, not measured: one of them is none of a kind
-    const BeamModel model = parametric.at(parametric.from + share * (parametric.to == parametric.from ? 1 : parametric.to - parametric.from));
+    const BeamModel model = parametric.at(
+        parametric.from + share * (parametric.to == parametric.from ? 1 : parametric.to - parametric.from));
     facts.conservative = facts.conservative && model.conservative;
     facts.turns_freely = facts.turns_freely && turns_freely(model);
     facts.planes_apart = facts.planes_apart && facts.turns_freely && planes_apart(model);

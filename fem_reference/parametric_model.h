@@ -9,6 +9,9 @@
 
 namespace fem_reference {
 
+// Of a scene, cut as the options say.
+BeamModel beam_model(const scene::Scene& scene, const Options& options);
+
 struct ParametricModel {
   std::function<BeamModel(double parameter)> at;  // elements of the same lengths for all
   double from = 0, to = 1;

@@ -71,14 +71,13 @@ class Follower {
 };
 
 std::optional<PathState> Follower::start() {
-  const SteppingResult found =
-      step_to_full_load(system_.parametric().at(request_.from), stepping_options(options_));
+  const SteppingResult found = step_to_full_load(system_.parametric().at(request_.from), stepping_options(options_));
   if (found.status != scene::Status::converged) {
     path_.message = found.message;
     return {};
   }
   const Direction along = system_.along_parameter(request_.to < request_.from ? -1 : 1);
-  const auto first = system_.solve(found.state, request_.from, along, along);
+  const auto first = system_.at(found.state, request_.from, along);
   if (!first) path_.message = system_.failure();
   return first;
 }
@@ -98,8 +97,8 @@ void Follower::emit(const Landmark& landmark, Kind kind) {
   path_.points.push_back(point);
   if (!on_point_) return;
   const std::vector<scene::Span> spans = scene::spans_of(scene::scene_at(request_, at.parameter));
-  on_point_(point, {spans, scene::cells_per_span(spans, options_.elements), system_.parametric().at(at.parameter),
-                    at.state});
+  on_point_(point,
+            {spans, scene::cells_per_span(spans, options_.elements), system_.parametric().at(at.parameter), at.state});
 }
 
 void Follower::end(PathStatus status, const std::string& message) {

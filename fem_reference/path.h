@@ -16,8 +16,8 @@ using OnPathPoint = std::function<void(const scene::PathPoint&, const SolvedBeam
 // From the equilibrium that solve() finds at request.from towards request.to. The request must be valid.
 //
 // index: negative eigenvalues of the tangent of the discrete rod, whose critical parameters have an error as well
-// (stability.h); at folds and branch points of the motions that are not neutral. Points of a branch b > 0 begin with the
-// branch point that they leave, `start`, into +y as seen at the tip (into +z, a turn about +x where it does not go
+// (stability.h); at folds and branch points of the motions that are not neutral. Points of a branch b > 0 begin with
+// the branch point that they leave, `start`, into +y as seen at the tip (into +z, a turn about +x where it does not go
 // there). On the way the parameter changes by at most largest_step, a twenty-fifth of to - from by default.
 //
 // Options: elements, order, model, tolerance, max_newton_iterations as in solve(), and all others for the start;

@@ -124,6 +124,11 @@ std::optional<PathState> PathSystem::solve(BeamState guess, double parameter, co
   return judged(std::move(guess), parameter, ahead);
 }
 
+std::optional<PathState> PathSystem::at(const BeamState& state, double parameter, const Direction& ahead) {
+  assemble(state, parameter);
+  return judged(state, parameter, ahead);
+}
+
 std::optional<PathState> PathSystem::step(const PathState& from, const Direction& direction, double length) {
   BeamState guess = from.state;
   advance(guess, direction.motion, length);

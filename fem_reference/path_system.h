@@ -22,11 +22,11 @@ namespace fem_reference {
 struct PathState {
   double parameter = 0;
   BeamState state;
-  Direction tangent;                                   // of unit length
-  scene::Determinant determinant;                      // of the motions that the pin leaves
-  std::optional<scene::Determinant> planar;            // of motions in the x-y plane, where double points are its zeros
-  std::optional<int> index;                            // number of unstable directions; empty: no energy
-  bool neutral = false;                                // it may be turned about the x axis
+  Direction tangent;                         // of unit length
+  scene::Determinant determinant;            // of the motions that the pin leaves
+  std::optional<scene::Determinant> planar;  // of motions in the x-y plane, where double points are its zeros
+  std::optional<int> index;                  // number of unstable directions; empty: no energy
+  bool neutral = false;                      // it may be turned about the x axis
 };
 
 class PathSystem {
@@ -36,6 +36,8 @@ class PathSystem {
   // Newton's iteration from a guess, its increments orthogonal to `fixed`, and what a path needs of the equilibrium
   // found; its tangent leads `ahead`. Empty: see failure().
   std::optional<PathState> solve(BeamState guess, double parameter, const Direction& fixed, const Direction& ahead);
+  // The same of a state that is in equilibrium.
+  std::optional<PathState> at(const BeamState& state, double parameter, const Direction& ahead);
   // From a point on in a direction.
   std::optional<PathState> step(const PathState& from, const Direction& direction, double length);
 

@@ -11,9 +11,9 @@ namespace {
 using Kind = scene::PathPoint::Kind;
 
 // Chosen, not measured, but for `together`.
-constexpr double rotation_limit_rad = 0.2;  // of any node in a step
+constexpr double rotation_limit_rad = 0.2;   // of any node in a step
 constexpr double surprise_limit_rad = 0.02;  // between where the tangent pointed and where the step ends
-constexpr double smallest_cosine = 0.95;       // of the angle between the tangents at both ends
+constexpr double smallest_cosine = 0.95;     // of the angle between the tangents at both ends
 constexpr double smallest_step = 1e-7;
 constexpr double together = 0.05;
 constexpr std::size_t most_places = 6;  // that are interpolated
@@ -236,7 +236,8 @@ std::optional<std::vector<Landmark>> PathTracer::next(const std::vector<double>&
       refused("a point that is asked for was not found");
       continue;
     }
-    if (landmarks.empty() || landmarks.back().target != next->parameter) landmarks.push_back({*next, Kind::regular, 0, {}});
+    if (landmarks.empty() || landmarks.back().target != next->parameter)
+      landmarks.push_back({*next, Kind::regular, 0, {}});
     const double growth = std::min(0.8 * rotation_limit_rad / std::max(rotation_rad_, 1e-12),
                                    std::sqrt(0.5 * surprise_limit_rad / std::max(surprise_rad_, 1e-12)));
     step_ *= std::clamp(growth, 0.5, 2.0);

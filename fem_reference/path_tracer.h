@@ -7,8 +7,8 @@
 //   double branch point of a round rod on its axis: the index changes by two (without an energy: the determinant of
 //   motions in a plane changes its sign).
 // Otherwise it is halved; what still happens together in a step of `together` is one point.
-// Inverse interpolation finds the zero of the tangent's parameter part at a fold, of the determinant at a branch point (its root where
-// double). A sign change without a zero is a jump to another branch, and the step is halved.
+// Inverse interpolation finds the zero of the tangent's parameter part at a fold, of the determinant at a branch point
+// (its root where double). A sign change without a zero is a jump to another branch, and the step is halved.
 #pragma once
 
 #include "fem_reference/path_system.h"

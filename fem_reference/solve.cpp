@@ -1,6 +1,7 @@
 #include "fem_reference/solve.h"
 
 #include "fem_reference/beam_element.h"
+#include "fem_reference/limit.h"
 #include "fem_reference/load_stepping.h"
 #include "fem_reference/stations.h"
 
@@ -71,11 +72,15 @@ Solution solve_on(const std::vector<scene::Span>& spans, const std::vector<int>&
     result.message = "full integration of a rod that does not stretch or shear: use reduced integration";
   } else {
     result = step_to_full_load(model, stepping_options(options));
+    if (result.status == scene::Status::load_step_too_small) {
+      look_for_a_limit(model, stepping_options(options), result);
+    }
   }
   scene::Equilibrium& equilibrium = solution.equilibrium;
   equilibrium.model = facts(model, result, options);
   equilibrium.status = result.status;
   equilibrium.message = std::move(result.message);
+  if (result.limit) equilibrium.limit = scene::Limit{*result.limit, "fold"};
   if (!equilibrium.converged()) return solution;
   equilibrium.stable = result.stable;
   solution.beam.state = std::move(result.state);

@@ -21,7 +21,8 @@ namespace fem_reference {
 // tangent (stability.h) of the discrete rod, whose critical loads have an error as well; empty under any other load and
 // where it is neutral. Facts: elements, order, integration, model, load_steps, newton_iterations, of the main solve.
 //
-// Status load_step_too_small: the load step fell below smallest_load_step. not_finite, tendon_collapsed: the same, and
+// Status limit_point: the growing load meets a fold of the path, `limit` says where. load_step_too_small: the load step
+// fell below smallest_load_step for another reason. not_finite, tendon_collapsed: the same, and
 // the last attempt met a value that is not finite, or a tendon whose path has next to no length somewhere
 // (tendon_pull.h). work_limit: max_load_steps used up. not_converged: an element turns by pi or more from end to end,
 // or a section is compressed to nothing (1 + stretch <= 0), so that the result is no rod. unsupported: full integration

@@ -35,7 +35,7 @@ enum class Status {
   load_step_too_small,  // the load step was halved below the method's smallest
   not_converged,        // an iteration ended above its tolerance; the message gives both
   work_limit,           // the method's bound on load steps, marched arcs or intervals was used up
-  limit_point,          // the load path from the last solution ends in a fold, where it would snap (fam/solver.h)
+  limit_point,          // the loads meet a fold on their way, where the rod would snap
   tendon_collapsed,     // a tendon's path has no length somewhere, |v + u x r| = 0: its direction is not defined
   not_finite            // a pose or a wrench is NaN or infinite
 };
@@ -45,6 +45,12 @@ const char* name(Status status);
 
 // A fact about the model that was used, for the reader of a result ("arcs" = 12).
 using Fact = std::pair<std::string, std::variant<bool, int, double, std::string>>;
+
+// Where a growing load stops: a share of it, and what is there, as a path's points are called ("fold").
+struct Limit {
+  double load_factor = 0;
+  std::string kind;
+};
 
 // Static equilibrium of a scene. Only a converged one has a shape: otherwise `stations` is empty.
 struct Equilibrium {
@@ -57,6 +63,7 @@ struct Equilibrium {
   // How much of each of the scene's tendons leaves through the clamp: int |e_x + u0 x r| ds - int |v + u x r| ds.
   std::vector<double> tendon_shortening_mm;
   std::vector<Fact> model;
+  std::optional<Limit> limit;  // of limit_point, where it was located
 
   bool converged() const { return status == Status::converged; }
   const Pose& tip() const { return stations.back().X_BS; }
