@@ -37,12 +37,6 @@ struct SteppingResult {
 // the last (0: there is none) to now, quadratically in the end.
 double next_increment(double last, double now);
 
-// Whether a tendon has collapsed anywhere on the way between two states (tendon_pull.h).
-bool tendon_collapses(const BeamModel& model, const BeamState& from, const BeamState& to);
-
-// The first element that turns by pi or more from end to end, which the mesh cannot show.
-std::optional<std::size_t> turned_over(const BeamModel& model, const BeamState& state);
-
 // Newton's iteration ends: largest increment of a node yet to come (displacement over L, rotation in rad) <= tolerance
 // and largest residual <= tolerance F, with F = max(1, largest internal force) in EI / L^2.
 bool is_converged(double largest_increment, const Residual& residual, double largest_force, double tolerance);

@@ -1,5 +1,7 @@
 #include "fem_reference/path_tracer.h"
 
+#include "fem_reference/state_checks.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>

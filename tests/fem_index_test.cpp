@@ -9,15 +9,15 @@
 
 #include <numbers>
 
-namespace fem_reference {
-namespace {
+namespace fem_index {
 
+using namespace fem_reference;
 using scene::Frame;
 using scene::PathParameter;
 using scene::PathPoint;
 using scene::PathRequest;
 
-Options elements(int count) {
+inline Options elements(int count) {
   Options options;
   options.elements = count;
   return options;
@@ -25,7 +25,7 @@ Options elements(int count) {
 
 // Negative eigenvalues, less one for each number of the internal forces (stability.h). The one of a turn that costs
 // nothing is zero within round-off.
-int negative(const SolvedBeam& beam, double least) {
+inline int negative(const SolvedBeam& beam, double least) {
   const Eigen::MatrixXd K = WholeSystem(beam.model, beam.state, 1).tangent;
   const Eigen::VectorXd values =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (K + K.transpose()), Eigen::EigenvaluesOnly).eigenvalues();
@@ -33,7 +33,7 @@ int negative(const SolvedBeam& beam, double least) {
   return static_cast<int>((values.array() < -least).count()) - forces;
 }
 
-PathRequest column_with(double strong, double to) {
+inline PathRequest column_with(double strong, double to) {
   scene::Stiffness stiffness = support::slender(1, 0.8);
   stiffness.bending_Nmm2[1] = strong;
   PathRequest request;
@@ -43,7 +43,7 @@ PathRequest column_with(double strong, double to) {
   return request;
 }
 
-PathRequest turned_rod() {
+inline PathRequest turned_rod() {
   PathRequest request;
   request.scene =
       support::uniform_rod(1.7, support::slender(1, 0.8),
@@ -101,5 +101,4 @@ TEST(FemIndex, AShapeThatIsNoneHasNone) {
   });
 }
 
-}  // namespace
-}  // namespace fem_reference
+}  // namespace fem_index

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-namespace {
+namespace fem_path {
 
 using Eigen::Vector3d;
 using fem_reference::Options;
@@ -26,14 +26,14 @@ using Kind = PathPoint::Kind;
 
 constexpr double pi = std::numbers::pi;
 
-Options elements(int count) {
+inline Options elements(int count) {
   Options options;
   options.elements = count;
   options.model = fem_reference::RodModel::kirchhoff;
   return options;
 }
 
-PathRequest request(scene::Scene scene, double to, int branches = 0) {
+inline PathRequest request(scene::Scene scene, double to, int branches = 0) {
   PathRequest result;
   result.scene = std::move(scene);
   result.to = to;
@@ -41,7 +41,7 @@ PathRequest request(scene::Scene scene, double to, int branches = 0) {
   return result;
 }
 
-std::vector<PathPoint> points(const Path& path, Kind kind, int branch = 0) {
+inline std::vector<PathPoint> points(const Path& path, Kind kind, int branch = 0) {
   std::vector<PathPoint> result;
   std::copy_if(path.points.begin(), path.points.end(), std::back_inserter(result),
                [&](const PathPoint& point) { return point.kind == kind && point.branch == branch; });
@@ -49,7 +49,7 @@ std::vector<PathPoint> points(const Path& path, Kind kind, int branch = 0) {
 }
 
 // The first branch point's parameter, 0 if there is none.
-double critical(const PathRequest& request, int count = 100) {
+inline double critical(const PathRequest& request, int count = 100) {
   const Path path = fem_reference::follow(request, elements(count));
   EXPECT_EQ(path.status, PathStatus::reached) << path.message;
   const auto branch_points = points(path, Kind::branch);
@@ -57,21 +57,21 @@ double critical(const PathRequest& request, int count = 100) {
 }
 
 // The scene's and that of the stiffer twin, which must be off.
-void expect_critical(const PathRequest& request, double expected, double relative) {
+inline void expect_critical(const PathRequest& request, double expected, double relative) {
   EXPECT_NEAR(critical(request), expected, relative * expected);
   PathRequest twin = request;
   twin.scene = support::stiffer(request.scene);
   EXPECT_GT(std::abs(critical(twin) - expected), 1e3 * relative * expected);
 }
 
-scene::Scene rod(double strong, double weak, double torsion, std::vector<scene::Load> loads) {
+inline scene::Scene rod(double strong, double weak, double torsion, std::vector<scene::Load> loads) {
   scene::Stiffness stiffness = slender(weak, torsion);
   stiffness.bending_Nmm2[1] = strong;
   stiffness.mass_per_length_kg_per_m = 1;
   return uniform_rod(1, stiffness, std::move(loads));
 }
 
-scene::Scene column(double strong = 1) {
+inline scene::Scene column(double strong = 1) {
   return rod(strong, 1, 1, {scene::Force{1, Frame::fixed, {-1, 0, 0}}});
 }
 
@@ -96,7 +96,7 @@ TEST(FemPath, LateralBuckling) {
 }
 
 // The elastica: P / P_E = (2 K(sin 30 deg) / pi)^2 where the tip has turned by 60 degrees.
-double tip_angle_at(double load_factor, const scene::Scene& scene) {
+inline double tip_angle_at(double load_factor, const scene::Scene& scene) {
   PathRequest asked = request(scene, 2 * pi * pi / 4, 1);
   asked.stop_at = {load_factor};
   double angle_rad = 0;
@@ -152,7 +152,7 @@ TEST(FemPath, DoublePointsWithoutAnEnergy) {
 
 // A curved rod whose clamp is turned about its own tangent, published with AUTO-07p; the folds refined by an
 // independent solver.
-PathRequest turned_rod(double arm_mm = 0.02, double force_N = 1.15) {
+inline PathRequest turned_rod(double arm_mm = 0.02, double force_N = 1.15) {
   PathRequest result;
   result.scene =
       uniform_rod(1.7, slender(1, 1 / 1.3), {scene::Force{1.7, Frame::fixed, {0, 0, -force_N}, {arm_mm, 0}}});
@@ -170,10 +170,10 @@ TEST(FemPath, FoldsOfACurvedRodTurnedInItsClamp) {
   EXPECT_NEAR(folds[1].parameter, 3.033816950, 1e-8);  // measured 1.6e-9
   // Between them the rod is unstable in one direction.
   for (const PathPoint& point : path.points) {
-    if (point.kind == Kind::regular) EXPECT_EQ(point.stable, point.index == 0);
+    EXPECT_EQ(point.stable, point.index == 0);
   }
-  EXPECT_EQ(std::count_if(path.points.begin(), path.points.end(), [](const PathPoint& p) { return p.index == 1; }) > 0,
-            true);
+  EXPECT_TRUE(
+      std::any_of(path.points.begin(), path.points.end(), [](const PathPoint& point) { return point.index == 1; }));
 
   PathRequest twin = turned_rod();
   twin.scene = support::stiffer(twin.scene);
@@ -254,4 +254,4 @@ TEST(FemPath, EveryParameterLeadsToTheSameShape) {
   EXPECT_LT((tip(tension) - expected).norm(), 1e-9);
 }
 
-}  // namespace
+}  // namespace fem_path
