@@ -25,6 +25,12 @@ void BandSystem::set_zero() {
   std::fill(band_.begin(), band_.end(), 0.0);
 }
 
+void BandSystem::fix(int unknown) {
+  const int last = std::min(size_ - 1, unknown + upper_);
+  for (int column = std::max(0, unknown - lower_); column <= last; ++column) entry(unknown, column) = 0;
+  entry(unknown, unknown) = 1;
+}
+
 bool BandSystem::factorise() {
   int info = 0;
   dgbtrf_(&size_, &size_, &lower_, &upper_, band_.data(), &rows_, exchanged_.data(), &info);

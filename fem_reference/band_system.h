@@ -15,6 +15,8 @@ class BandSystem {
   double& entry(int row, int column) {
     return band_[static_cast<std::size_t>(column * rows_ + lower_ + upper_ + row - column)];
   }
+  // Puts `unknown` = right hand side in place of its equation.
+  void fix(int unknown);
   bool factorise();  // false: singular
 
   // The determinant of the matrix last factorised: its sign, of the pivots and of the row exchanges, and the logarithm

@@ -123,6 +123,12 @@ double largest_rotation(const BeamState& from, const BeamState& to) {
   return largest;
 }
 
+double largest_entry(const std::vector<Eigen::Vector3d>& vectors) {
+  double largest = 0;
+  for (const Eigen::Vector3d& vector : vectors) largest = std::max(largest, vector.lpNorm<Eigen::Infinity>());
+  return largest;
+}
+
 bool all_finite(const BeamState& state) {
   const auto finite = [](const auto& value) { return value.allFinite(); };
   return std::all_of(state.position_B.begin(), state.position_B.end(), finite) &&

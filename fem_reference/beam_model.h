@@ -83,6 +83,8 @@ BeamIncrement difference(const BeamState& from, const BeamState& to);
 // Largest rotation of any node from one state to another, rad.
 double largest_rotation(const BeamState& from, const BeamState& to);
 
+double largest_entry(const std::vector<Eigen::Vector3d>& vectors);  // of their components' sizes
+
 bool all_finite(const BeamState& state);
 
 }  // namespace fem_reference

@@ -1,8 +1,5 @@
 #include "fem_reference/beam_system.h"
 
-#include "fem_reference/condensed_rod.h"
-#include "fem_reference/stability.h"
-
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
@@ -60,6 +57,7 @@ struct BeamSystem::Implementation {
 
   CondensedRod rod(const Motions& motions) const { return {model, motions, vertex_unknowns(line, motions.size())}; }
   bool factorise();
+  std::optional<scene::Determinant> determinant_in(scene::Symmetry plane);  // one plane for each system
   template <typename OfElement>
   Residual sum(const BeamState& state, double load_factor, const OfElement& residual_of);
 
@@ -69,6 +67,7 @@ struct BeamSystem::Implementation {
   std::vector<NodalSystem> loads;
   std::vector<Eigen::Matrix<double, 6, 1>> node_residuals;
   std::optional<CondensedRod> whole, in_plane;
+  std::optional<Pin> pin;
   bool is_factorised = false;  // `whole` holds the system assembled last
 };
 
@@ -78,7 +77,7 @@ BeamSystem::Implementation::Implementation(const BeamModel& beam) : model(beam),
 }
 
 bool BeamSystem::Implementation::factorise() {
-  if (!is_factorised) is_factorised = whole->factorise(elements, loads);
+  if (!is_factorised) is_factorised = whole->factorise(elements, loads, pin);
   return is_factorised;
 }
 
@@ -147,14 +146,42 @@ bool BeamSystem::newton_increment(BeamIncrement& increment) {
   return true;
 }
 
+std::optional<scene::Determinant> BeamSystem::Implementation::determinant_in(scene::Symmetry plane) {
+  if (!in_plane) in_plane.emplace(rod(motions_in_plane(plane)));
+  return in_plane->factorise(elements, loads) ? std::optional(in_plane->determinant()) : std::nullopt;
+}
+
 std::optional<scene::Determinant> BeamSystem::determinant() {
   Implementation& self = *implementation_;
   const bool is_planar =
       self.model.symmetry == scene::Symmetry::plane_xy || self.model.symmetry == scene::Symmetry::plane_xz;
-  if (!is_planar) return self.factorise() ? std::optional(self.whole->determinant()) : std::nullopt;
-  if (!self.in_plane) self.in_plane.emplace(self.rod(motions_in_plane(self.model.symmetry)));
-  return self.in_plane->factorise(self.elements, self.loads) ? std::optional(self.in_plane->determinant())
-                                                             : std::nullopt;
+  return is_planar ? self.determinant_in(self.model.symmetry) : determinant_in_space();
+}
+
+std::optional<scene::Determinant> BeamSystem::determinant_in_xy() {
+  return implementation_->determinant_in(scene::Symmetry::plane_xy);
+}
+
+std::optional<scene::Determinant> BeamSystem::determinant_in_space() {
+  Implementation& self = *implementation_;
+  return self.factorise() ? std::optional(self.whole->determinant()) : std::nullopt;
+}
+
+void BeamSystem::set_pin(const std::optional<Pin>& pin) {
+  implementation_->pin = pin;
+}
+
+bool BeamSystem::increment(const Imbalance& imbalance, BeamIncrement& increment) {
+  Implementation& self = *implementation_;
+  if (!self.factorise()) return false;
+  self.whole->set_residual(imbalance);
+  self.whole->increment(increment);
+  return true;
+}
+
+std::optional<Inertia> BeamSystem::inertia() {
+  const Implementation& self = *implementation_;
+  return fem_reference::inertia(self.model, self.elements, self.loads, self.pin);
 }
 
 std::optional<bool> BeamSystem::is_stable() {

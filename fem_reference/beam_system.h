@@ -1,7 +1,8 @@
 // The whole beam: unknowns, assembly and linear solution, on deal.II, which no other header here shows.
 #pragma once
 
-#include "fem_reference/beam_element.h"
+#include "fem_reference/condensed_rod.h"
+#include "fem_reference/stability.h"
 #include "scene/branch_watch.h"
 
 #include <memory>
@@ -21,7 +22,8 @@ struct Residual {
 
 class BeamSystem {
  public:
-  explicit BeamSystem(const BeamModel& model);  // keeps a reference to the model
+  // Keeps a reference to the model, whose loads and rest curvatures may change; not its elements' lengths.
+  explicit BeamSystem(const BeamModel& model);
   ~BeamSystem();
 
   // Residual at a state under load_factor times the loads.
@@ -36,6 +38,20 @@ class BeamSystem {
   // Of the tangent assembled last, as it acts on motions in the plane of the model's symmetry if there is one. Empty:
   // the matrix is singular.
   std::optional<scene::Determinant> determinant();
+
+  // The same of motions in the x-y plane alone, and of all motions, which leave a pinned rotation as it is.
+  std::optional<scene::Determinant> determinant_in_xy();
+  std::optional<scene::Determinant> determinant_in_space();
+
+  // The rotation that no increment changes from the next assembly on: where the rod may turn freely.
+  void set_pin(const std::optional<Pin>& pin);
+
+  // Increment that takes away another imbalance, by the tangent assembled last; after newton_increment(). False: the
+  // matrix is singular.
+  bool increment(const Imbalance& imbalance, BeamIncrement& increment);
+
+  // Of the state assembled last, an equilibrium of a conservative model.
+  std::optional<Inertia> inertia();
 
   // Whether the state assembled last, an equilibrium of a conservative model, is stable (stability.h).
   std::optional<bool> is_stable();

@@ -1,6 +1,7 @@
 #include "fem_reference/condensed_element.h"
 
 #include <cmath>
+#include <utility>
 
 namespace fem_reference {
 
@@ -59,7 +60,6 @@ void CondensedElement::gather(const ElementParting& parting, const ElementSystem
   };
   const auto fill_row = [&](int row, int from) {
     fill_columns(row, [&](int column) { return system.tangent(from, column); });
-    table_(row, size) = -system.residual[from];
   };
   int row = 0;
   for (const int from : parting.inner) fill_row(row++, from);
@@ -68,37 +68,54 @@ void CondensedElement::gather(const ElementParting& parting, const ElementSystem
     table_(parting.end_forces[static_cast<std::size_t>(c)], inner_ + rotations + c) = 1;
     // Internal forces cancel in the sum: loads that turn with the rod are left.
     const int first = parting.forces[static_cast<std::size_t>(c)];
-    double sum = 0;
-    for (int i = 0; i < parting.nodes; ++i) sum -= system.residual[first + 6 * i];
-    fill_columns(row, [&](int column) {
+    fill_columns(row++, [&](int column) {
       const bool is_rotation = column < 6 * parting.nodes && column % 6 >= 3;
       double entry = 0;
       for (int i = 0; is_rotation && i < parting.nodes; ++i) entry += system.tangent(first + 6 * i, column);
       return entry;
     });
-    table_(row++, size) = sum;
+  }
+  gather_residual(parting, system.residual);
+}
+
+void CondensedElement::gather_residual(const ElementParting& parting, const ElementResidual& residual) {
+  const Eigen::Index column = table_.rows();
+  Eigen::Index row = 0;
+  for (const int from : parting.inner) table_(row++, column) = -residual[from];
+  for (const int from : parting.rotations) table_(row++, column) = -residual[from];
+  for (const int first : parting.forces) {
+    double sum = 0;
+    for (int i = 0; i < parting.nodes; ++i) sum -= residual[first + 6 * i];
+    table_(row++, column) = sum;
+  }
+}
+
+void CondensedElement::set_residual(const ElementParting& parting, const ElementResidual& residual) {
+  gather_residual(parting, residual);
+  auto right_side = table_.col(table_.rows());
+  for (int k = 0; k < inner_; ++k) std::swap(right_side[k], right_side[pivot_rows_[static_cast<std::size_t>(k)]]);
+  for (int k = 0; k < inner_; ++k) {
+    const Eigen::Index below = table_.rows() - k - 1;
+    right_side.tail(below) -= right_side[k] * table_.col(k).tail(below);
   }
 }
 
 // Gauss' elimination of the inner unknowns, the pivots sought in their own rows.
 bool CondensedElement::eliminate() {
   const int rows = static_cast<int>(table_.rows()), columns = rows + 1;
-  exchanged_ = false;
   for (int k = 0; k < inner_; ++k) {
     int pivot_row = k;
     for (int i = k + 1; i < inner_; ++i) {
       if (std::abs(table_(i, k)) > std::abs(table_(pivot_row, k))) pivot_row = i;
     }
-    if (pivot_row != k) {
-      table_.row(k).swap(table_.row(pivot_row));
-      exchanged_ = !exchanged_;
-    }
+    pivot_rows_[static_cast<std::size_t>(k)] = pivot_row;
+    if (pivot_row != k) table_.row(k).swap(table_.row(pivot_row));
     const double* top = &table_(k, 0);
     if (!(std::abs(top[k]) > 0)) return false;
     const double inverse = 1 / top[k];
     for (int i = k + 1; i < rows; ++i) {
       double* below = &table_(i, 0);
-      const double factor = inverse * below[k];
+      const double factor = below[k] *= inverse;
       if (factor == 0) continue;
       for (int j = k + 1; j < columns; ++j) below[j] -= factor * top[j];
     }
@@ -107,9 +124,9 @@ bool CondensedElement::eliminate() {
 }
 
 scene::Determinant CondensedElement::inner_determinant() const {
-  scene::Determinant result{0, exchanged_};
+  scene::Determinant result;
   for (int k = 0; k < inner_; ++k) {
-    result.negative ^= table_(k, k) < 0;
+    result.negative ^= (table_(k, k) < 0) ^ (pivot_rows_[static_cast<std::size_t>(k)] != k);
     result.log_size += std::log(std::abs(table_(k, k)));
   }
   return result;

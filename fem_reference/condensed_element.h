@@ -14,6 +14,7 @@
 #include "fem_reference/beam_element.h"
 #include "scene/branch_watch.h"
 
+#include <array>
 #include <vector>
 
 namespace fem_reference {
@@ -46,6 +47,9 @@ class CondensedElement {
   // False: the inner block is singular.
   bool condense(const ElementParting& parting, const ElementSystem& system);
 
+  // Another residual in place of the system's, which is condensed already.
+  void set_residual(const ElementParting& parting, const ElementResidual& residual);
+
   // The condensed tangent and residual; rows and columns in the order above.
   double tangent(int row, int column) const { return table_(inner_ + row, inner_ + column); }
   double residual(int row) const { return -table_(inner_ + row, table_.cols() - 1); }
@@ -59,11 +63,13 @@ class CondensedElement {
   using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, max_size, max_size + 1>;
 
   void gather(const ElementParting& parting, const ElementSystem& system);
+  void gather_residual(const ElementParting& parting, const ElementResidual& residual);
   bool eliminate();
 
-  Table table_;  // rows: inner, then outer; columns: the same and the right hand side
+  // Rows: inner, then outer; columns: the same and the right hand side. Below the pivots what was taken of their rows.
+  Table table_;
   int inner_ = 0;
-  bool exchanged_ = false;  // an odd number of rows
+  std::array<int, max_unknowns> pivot_rows_{};  // with which each inner row was exchanged
 };
 
 }  // namespace fem_reference

@@ -9,10 +9,17 @@
 
 #include "fem_reference/band_system.h"
 #include "fem_reference/condensed_element.h"
+#include "fem_reference/imbalance.h"
 
 #include <optional>
 
 namespace fem_reference {
+
+// A component of the rotation of an element's end that may not change; the ends are counted from the clamp, which is 0.
+struct Pin {
+  std::size_t vertex = 1;
+  int component = 0;
+};
 
 class CondensedRod {
  public:
@@ -20,7 +27,11 @@ class CondensedRod {
   CondensedRod(const BeamModel& model, const Motions& motions, std::vector<int> vertex_unknowns);
 
   // False: singular.
-  bool factorise(const std::vector<ElementSystem>& elements, const std::vector<NodalSystem>& loads);
+  bool factorise(const std::vector<ElementSystem>& elements, const std::vector<NodalSystem>& loads,
+                 const std::optional<Pin>& pin = {});
+
+  // Another residual in place of the system's.
+  void set_residual(const Imbalance& imbalance);
 
   // Of the system factorised last.
   scene::Determinant determinant() const;
@@ -30,7 +41,11 @@ class CondensedRod {
 
  private:
   void add_element(std::size_t e);
+  void add_element_residual(std::size_t e);
   void add_load(const NodalLoad& load, const NodalSystem& system);
+  void add_load_residual(std::size_t vertex, const Eigen::Matrix<double, 6, 1>& residual);
+  template <typename AddRow>
+  void for_rows(std::size_t e, const AddRow& add_row) const;
   void recover(std::size_t e, const std::vector<double>& solution, Eigen::VectorXd& found,
                BeamIncrement& increment) const;
   int unknown(std::size_t e, int outer) const;  // number of an element's outer unknown (condensed_element.h)
@@ -42,6 +57,7 @@ class CondensedRod {
   BandSystem band_;
   std::vector<double> residual_;
   std::vector<CondensedElement> elements_;
+  int pinned_ = -1;  // an unknown; negative: none
 };
 
 }  // namespace fem_reference

@@ -1,7 +1,6 @@
 #include "fem_reference/load_stepping.h"
 
-#include "fem_reference/beam_element.h"
-#include "fem_reference/tendon_pull.h"
+#include "fem_reference/state_checks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,13 +38,6 @@ const char* reason(Outcome outcome) {
   return "";
 }
 
-template <typename Vectors>
-double largest(const Vectors& vectors) {
-  double result = 0;
-  for (const auto& vector : vectors) result = std::max(result, vector.template lpNorm<Eigen::Infinity>());
-  return result;
-}
-
 struct Attempt {
   Outcome outcome = Outcome::stalled;
   int iterations = 0;
@@ -71,7 +63,7 @@ Attempt iterate(BeamSystem& system, const BeamState& start, BeamState& state, do
       attempt.outcome = Outcome::not_finite;
       return attempt;
     }
-    const bool converged = is_converged(to_come, attempt.residual, largest(state.force_S), options.tolerance);
+    const bool converged = is_converged(to_come, attempt.residual, largest_entry(state.force_S), options.tolerance);
     // Before convergence the bound is wider: an iterate may overshoot and come back.
     if (attempt.rotation_rad > (converged ? 1.0 : 1.5) * options.largest_rotation_rad) {
       attempt.outcome = Outcome::turned_too_far;
@@ -88,26 +80,11 @@ Attempt iterate(BeamSystem& system, const BeamState& start, BeamState& state, do
     }
     ++attempt.iterations;
     advance(state, increment);
-    const double this_increment = std::max(largest(increment.displacement_B), largest(increment.rotation_S));
+    const double this_increment =
+        std::max(largest_entry(increment.displacement_B), largest_entry(increment.rotation_S));
     to_come = next_increment(last_increment, this_increment);
     last_increment = this_increment;
   }
-}
-
-// Whether a tendon has collapsed anywhere on the way between two states (tendon_pull.h).
-bool tendon_collapses(const BeamModel& model, const BeamState& from, const BeamState& to) {
-  for (std::size_t e = 0; e < model.elements.size(); ++e) {
-    const ElementData& data = model.elements[e];
-    if (data.tendons.empty()) continue;
-    const ElementState before = state_of_element(model, from, e), after = state_of_element(model, to, e);
-    for (int g = 0; g < model.reference.points(); ++g) {
-      if (collapses(data, element_strain(model.reference, data, before, g),
-                    element_strain(model.reference, data, after, g))) {
-        return true;
-      }
-    }
-  }
-  return false;
 }
 
 // Where a step lands on a branch beside the one it began on, the surprise is as large as the whole motion.
@@ -145,15 +122,6 @@ std::string failure_message(double load_factor, double step, const Attempt& atte
                 "load factor %.6g of 1 reached; a further step of %.2g fails after %d iterations: %s", load_factor,
                 step, attempt.iterations, reason(attempt.outcome));
   return text;
-}
-
-// The first element that turns by pi or more from end to end, which the mesh cannot show.
-std::optional<std::size_t> turned_over(const BeamModel& model, const BeamState& state) {
-  const std::size_t order = static_cast<std::size_t>(model.reference.order());
-  for (std::size_t e = 0; e < model.elements.size(); ++e) {
-    if (state.rotation_BS[e * order].dot(state.rotation_BS[(e + 1) * order]) <= 0) return e;
-  }
-  return std::nullopt;
 }
 
 // Sum of all loads but the tendons', times the largest compliance.
@@ -308,6 +276,15 @@ class Stepping {
 };
 
 }  // namespace
+
+SteppingOptions stepping_options(const Options& options) {
+  return {.initial_load_step = options.initial_load_step,
+          .smallest_load_step = options.smallest_load_step,
+          .max_load_steps = options.max_load_steps,
+          .max_newton_iterations = options.max_newton_iterations,
+          .largest_rotation_rad = options.largest_rotation_rad,
+          .tolerance = options.tolerance};
+}
 
 double next_increment(double last, double now) {
   return now < last ? now * (now / last) : now;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fem_reference/beam_system.h"
+#include "fem_reference/options.h"
 #include "scene/equilibrium.h"
 
 #include <optional>
@@ -19,14 +20,17 @@ struct SteppingOptions {
   double smallest_bifurcation_step = 1e-5;
 };
 
+SteppingOptions stepping_options(const Options& options);
+
 // state only when the status is `converged`.
 struct SteppingResult {
   scene::Status status = scene::Status::not_converged;
   std::string message;
   BeamState state;
-  std::optional<bool> stable;  // stability.h; empty where the loads are not conservative, and where it is neutral
-  int load_steps = 0;          // accepted
-  int newton_iterations = 0;   // all, those of rejected steps included
+  std::optional<double> limit;  // the load factor of a fold, which limit.h finds
+  std::optional<bool> stable;   // stability.h; empty where the loads are not conservative, and where it is neutral
+  int load_steps = 0;           // accepted
+  int newton_iterations = 0;    // all, those of rejected steps included
 };
 
 // The increment that Newton's iteration would add next, at most: it falls by more from one to the next than it did from

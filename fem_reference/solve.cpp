@@ -1,6 +1,7 @@
 #include "fem_reference/solve.h"
 
 #include "fem_reference/beam_element.h"
+#include "fem_reference/limit.h"
 #include "fem_reference/load_stepping.h"
 #include "fem_reference/stations.h"
 
@@ -14,33 +15,6 @@
 namespace fem_reference {
 
 namespace {
-
-void require(bool holds, const char* name, double value, const char* rule) {
-  if (holds) return;
-  throw scene::SceneError("finite element options: " + std::string(name) + " = " + std::to_string(value) + ": " + rule);
-}
-
-void validate(const Options& options) {
-  require(options.elements >= 1 && options.elements <= 1'000'000, "elements", options.elements, "must be 1 to 1000000");
-  require(options.order >= 1 && options.order <= max_order, "order", options.order, "must be 1, 2 or 3");
-  require(options.initial_load_step > 0 && options.initial_load_step <= 1, "initial_load_step",
-          options.initial_load_step, "must be > 0 and <= 1");
-  require(options.smallest_load_step > 0, "smallest_load_step", options.smallest_load_step, "must be > 0");
-  require(options.max_load_steps >= 1, "max_load_steps", options.max_load_steps, "must be >= 1");
-  require(options.max_newton_iterations >= 1, "max_newton_iterations", options.max_newton_iterations, "must be >= 1");
-  require(options.largest_rotation_rad > 0 && options.largest_rotation_rad <= 3, "largest_rotation_rad",
-          options.largest_rotation_rad, "must be > 0 and <= 3");
-  require(options.tolerance > 0, "tolerance", options.tolerance, "must be > 0");
-}
-
-SteppingOptions stepping_options(const Options& options) {
-  return {.initial_load_step = options.initial_load_step,
-          .smallest_load_step = options.smallest_load_step,
-          .max_load_steps = options.max_load_steps,
-          .max_newton_iterations = options.max_newton_iterations,
-          .largest_rotation_rad = options.largest_rotation_rad,
-          .tolerance = options.tolerance};
-}
 
 bool is_rigid_somewhere(const BeamModel& model) {
   return std::any_of(model.elements.begin(), model.elements.end(),
@@ -98,11 +72,15 @@ Solution solve_on(const std::vector<scene::Span>& spans, const std::vector<int>&
     result.message = "full integration of a rod that does not stretch or shear: use reduced integration";
   } else {
     result = step_to_full_load(model, stepping_options(options));
+    if (result.status == scene::Status::load_step_too_small) {
+      look_for_a_limit(model, stepping_options(options), result);
+    }
   }
   scene::Equilibrium& equilibrium = solution.equilibrium;
   equilibrium.model = facts(model, result, options);
   equilibrium.status = result.status;
   equilibrium.message = std::move(result.message);
+  if (result.limit) equilibrium.limit = scene::Limit{*result.limit, "fold"};
   if (!equilibrium.converged()) return solution;
   equilibrium.stable = result.stable;
   solution.beam.state = std::move(result.state);

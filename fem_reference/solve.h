@@ -6,28 +6,11 @@
 // method.
 #pragma once
 
+#include "fem_reference/options.h"
 #include "scene/equilibrium.h"
-#include "scene/rod_model.h"
 #include "scene/scene.h"
 
 namespace fem_reference {
-
-using scene::RodModel;  // kirchhoff: exact, not a penalty
-
-struct Options {
-  int elements = 50;              // on the whole rod, shared out over the spans; each span gets at least one
-  int order = 2;                  // of the shape functions: 1, 2 or 3
-  bool full_integration = false;  // order + 1 Gauss points in place of `order`; shows shear locking, else useless
-  RodModel model = RodModel::reissner;
-  bool estimate_error = true;  // a second solve, on about half the elements
-
-  double initial_load_step = 0.25;    // 0 < . <= 1
-  double smallest_load_step = 1e-8;   // below it the solve gives up
-  int max_load_steps = 100'000;       // accepted and rejected
-  int max_newton_iterations = 15;     // in a load step
-  double largest_rotation_rad = 0.6;  // of any node in a load step: keeps to the branch that starts at no load
-  double tolerance = 1e-10;           // on Newton increments to come (lengths over L, rad), residuals; load_stepping.h
-};
 
 // The equilibrium that the rod reaches when its loads (tendons included) grow together from zero; beside a buckling
 // load the stable one, unless a perfect symmetry holds the rod on the unstable one (load_stepping.h).
@@ -38,7 +21,8 @@ struct Options {
 // tangent (stability.h) of the discrete rod, whose critical loads have an error as well; empty under any other load and
 // where it is neutral. Facts: elements, order, integration, model, load_steps, newton_iterations, of the main solve.
 //
-// Status load_step_too_small: the load step fell below smallest_load_step. not_finite, tendon_collapsed: the same, and
+// Status limit_point: the growing load meets a fold of the path, `limit` says where. load_step_too_small: the load step
+// fell below smallest_load_step for another reason. not_finite, tendon_collapsed: the same, and
 // the last attempt met a value that is not finite, or a tendon whose path has next to no length somewhere
 // (tendon_pull.h). work_limit: max_load_steps used up. not_converged: an element turns by pi or more from end to end,
 // or a section is compressed to nothing (1 + stretch <= 0), so that the result is no rod. unsupported: full integration

@@ -26,15 +26,29 @@ Block energy_of_rotations(const CondensedElement& element, int rotations) {
   return 0.5 * (form + form.transpose());
 }
 
-// The sign of a form's least eigenvalue, after its rows and columns are scaled to a diagonal of ones.
-std::optional<bool> is_positive(const Block& form, double round_off) {
-  if ((form.diagonal().array() <= 0).any()) return false;
-  const Eigen::VectorXd scale = form.diagonal().cwiseSqrt().cwiseInverse();
+// Eigenvalues of a form after its rows and columns are scaled to a diagonal of ones.
+Eigen::VectorXd scaled_eigenvalues(const Block& form) {
+  const Eigen::VectorXd scale = form.diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * form * scale.asDiagonal();
-  const double least =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues().minCoeff();
-  if (std::abs(least) <= round_off) return {};
-  return least > 0;
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+// What is left of a form's first three rows when the others are eliminated, and how many of their pivots are negative.
+struct Eliminated {
+  Eigen::Matrix3d rest;
+  int negative = 0;
+};
+Eliminated eliminate(const Block& form) {
+  const Eigen::Index free = form.rows() - 3;
+  const Block pivot = form.bottomRightCorner(free, free), coupling = form.bottomLeftCorner(free, 3);
+  const Eigen::LLT<Block> factors(pivot);
+  if (factors.info() == Eigen::Success) {
+    return {form.topLeftCorner<3, 3>() - coupling.transpose() * factors.solve(coupling), 0};
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(pivot);
+  const Eigen::MatrixXd along = modes.eigenvectors().transpose() * coupling;
+  return {form.topLeftCorner<3, 3>() - along.transpose() * modes.eigenvalues().cwiseInverse().asDiagonal() * along,
+          static_cast<int>((modes.eigenvalues().array() < 0).count())};
 }
 
 // The same of the point loads at a node.
@@ -58,10 +72,8 @@ class LoadEnergy {
 
 }  // namespace
 
-std::optional<bool> is_stable(const BeamModel& model, const std::vector<ElementSystem>& elements,
-                              const std::vector<NodalSystem>& systems) {
-  // Nothing but tendons: their lengths and the elastic energy are convex in the strains, which nothing else holds.
-  if (model.conservative && model.all_loads_follow) return true;
+std::optional<Inertia> inertia(const BeamModel& model, const std::vector<ElementSystem>& elements,
+                               const std::vector<NodalSystem>& systems, const std::optional<Pin>& pin) {
   const ReferenceElement& reference = model.reference;
   const ElementParting parting = rotations_apart(reference);
   const int free = 3 * reference.order();
@@ -69,23 +81,42 @@ std::optional<bool> is_stable(const BeamModel& model, const std::vector<ElementS
   LoadEnergy loads(model, systems);
   CondensedElement element;
   double shortest = 1;
+  Inertia result;
   for (std::size_t e = model.elements.size(); e-- > 0;) {
     if (!element.condense(parting, elements[e])) return {};
     Block form = energy_of_rotations(element, 3 * reference.nodes());
-    const std::size_t end = (e + 1) * static_cast<std::size_t>(reference.order());
-    form.bottomRightCorner<3, 3>() += distal + loads.by_rotation(end);
+    form.bottomRightCorner<3, 3>() += distal + loads.by_rotation((e + 1) * static_cast<std::size_t>(reference.order()));
+    if (pin && pin->vertex == e + 1) {
+      const Eigen::Index pinned = free + pin->component;
+      form.row(pinned).setZero();
+      form.col(pinned).setZero();
+      form(pinned, pinned) = 1;
+    }
     shortest = std::min(shortest, model.elements[e].length);
-    const Block pivot = form.bottomRightCorner(free, free);
-    // Each node adds an error of about 1e-16 / length to `distal`; at the clamp a pivot is of order length * (distance
-    // from the critical load) against a diagonal of 1 / length.
-    if (e == 0) return is_positive(pivot, 4 * std::numeric_limits<double>::epsilon() / std::pow(shortest, 3));
-    // A rod that is not stable with its clamp moved towards the tip is not with the clamp where it belongs.
-    const Eigen::LLT<Block> factors(pivot);
-    if (factors.info() != Eigen::Success) return false;
-    const Block coupling = form.bottomLeftCorner(free, 3);
-    distal = form.topLeftCorner<3, 3>() - coupling.transpose() * factors.solve(coupling);
+    if (e > 0) {
+      const Eliminated eliminated = eliminate(form);
+      distal = eliminated.rest;
+      result.negative += eliminated.negative;
+    } else {
+      // Each node adds an error of about 1e-16 / length to `distal`; at the clamp a pivot is of order length *
+      // (distance from the critical load) against a diagonal of 1 / length.
+      const double round_off = 4 * std::numeric_limits<double>::epsilon() / std::pow(shortest, 3);
+      const Eigen::ArrayXd values = scaled_eigenvalues(form.bottomRightCorner(free, free)).array();
+      result.negative += static_cast<int>((values < -round_off).count());
+      result.neutral = (values.abs() <= round_off).any();
+    }
   }
-  return {};
+  return result;
+}
+
+std::optional<bool> is_stable(const BeamModel& model, const std::vector<ElementSystem>& elements,
+                              const std::vector<NodalSystem>& systems) {
+  // Nothing but tendons: their lengths and the elastic energy are convex in the strains, which nothing else holds.
+  if (model.conservative && model.all_loads_follow) return true;
+  const std::optional<Inertia> found = inertia(model, elements, systems);
+  if (!found) return {};
+  if (found->negative > 0) return false;
+  return found->neutral ? std::nullopt : std::optional(true);
 }
 
 }  // namespace fem_reference

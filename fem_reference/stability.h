@@ -12,7 +12,7 @@
 // Under tendons alone, or no loads, the energy is convex in the strains and nothing needs to be eliminated.
 #pragma once
 
-#include "fem_reference/beam_element.h"
+#include "fem_reference/condensed_rod.h"
 
 #include <optional>
 
@@ -23,5 +23,16 @@ namespace fem_reference {
 // all conservative, in an equilibrium.
 std::optional<bool> is_stable(const BeamModel& model, const std::vector<ElementSystem>& elements,
                               const std::vector<NodalSystem>& loads);
+
+// The signs of the eigenvalues of the energy's Hessian on the rotations.
+struct Inertia {
+  int negative = 0;      // the number of unstable directions
+  bool neutral = false;  // one more eigenvalue is zero within round-off
+};
+
+// Of the same, counted through to the clamp; of motions that leave the pinned rotation as it is. Empty: an element
+// cannot be condensed.
+std::optional<Inertia> inertia(const BeamModel& model, const std::vector<ElementSystem>& elements,
+                               const std::vector<NodalSystem>& loads, const std::optional<Pin>& pin = {});
 
 }  // namespace fem_reference
