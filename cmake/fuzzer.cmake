@@ -1,7 +1,7 @@
 # The fuzzer of the scene file, built by clang++ beside the main compiler: scene/ alone, with both sanitizers. Left out
 # where clang++ or its libFuzzer is missing (Debian: clang, libclang-rt-14-dev).
 find_program(FUZZ_COMPILER clang++)
-set(fuzz_flags -std=c++20 -O1 -g1 -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined)
+set(fuzz_flags -std=c++20 -O1 -g1 -DFMT_HEADER_ONLY -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined)
 
 if(FUZZ_COMPILER AND NOT DEFINED FUZZ_COMPILER_WORKS)
   set(probe ${CMAKE_BINARY_DIR}/CMakeFiles/fuzzer_probe)
@@ -17,7 +17,6 @@ if(NOT FUZZ_COMPILER OR NOT FUZZ_COMPILER_WORKS)
 endif()
 
 file(GLOB fuzz_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/scene/*.cpp)
-list(FILTER fuzz_sources EXCLUDE REGEX "/equilibrium_file.cpp$")
 list(PREPEND fuzz_sources ${fuzz_folder}/scene_file_fuzzer.cpp)
 file(GLOB fuzz_headers CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/scene/*.h)
 get_target_property(eigen_folder Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)

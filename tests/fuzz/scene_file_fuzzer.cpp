@@ -1,6 +1,7 @@
-// Any bytes as a scene file: they are a scene or a SceneError of one line, and nothing else. A scene has spans that
-// cover the rod, and is written as a file that reads back the same. Run by libFuzzer, and over the corpus by
-// replay_corpus.cpp.
+// Any bytes as a scene file and as a path file: they are a scene, a path request, or a SceneError of one line, and
+// nothing else. A scene has spans that cover the rod, and is written as a file that reads back the same. Run by
+// libFuzzer, and over the corpus by replay_corpus.cpp.
+#include "scene/path_file.h"
 #include "scene/scene_file.h"
 #include "scene/span.h"
 
@@ -93,24 +94,39 @@ void check_spans(const scene::Scene& scene) {
   require(cells == std::max(12, static_cast<int>(spans.size())), "as many cells as asked for");
 }
 
-}  // namespace
+void check_error(const std::string& what) {
+  require(what.rfind("fuzz: ", 0) == 0, "an error names the file:", what);
+  require(what.size() < 1000, "an error is short:", what);
+  for (const char c : what) require(c >= ' ' && c <= '~', "an error is one printable line:", what);
+}
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  scene::Scene scene;
-  try {
-    std::istringstream input(std::string(reinterpret_cast<const char*>(data), size));
-    scene = scene::read_scene(input, "fuzz");
-  } catch (const scene::SceneError& error) {
-    const std::string what = error.what();
-    require(what.rfind("fuzz: ", 0) == 0, "an error names the file:", what);
-    require(what.size() < 1000, "an error is short:", what);
-    for (const char c : what) require(c >= ' ' && c <= '~', "an error is one printable line:", what);
-    return 0;
-  }
+void check_scene(const scene::Scene& scene) {
   scene::validate(scene);
   check_spans(scene);
   const std::string text = scene::write_scene(scene);
   std::istringstream again(text);
   require(same(scene::read_scene(again, "written"), scene), "what is written reads back the same:", text);
+}
+
+// Read by `read`, seen by `check`.
+template <class Read, class Check>
+void fuzz(const std::string& text, const Read& read, const Check& check) {
+  std::istringstream input(text);
+  try {
+    check(read(input, "fuzz"));
+  } catch (const scene::SceneError& error) {
+    check_error(error.what());
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  fuzz(text, scene::read_scene, check_scene);
+  fuzz(text, scene::read_path, [](const scene::PathRequest& request) {
+    scene::validate(request);
+    for (const double end : {request.from, request.to}) scene::scene_at(request, end);
+  });
   return 0;
 }
