@@ -19,7 +19,10 @@ constexpr double least_alignment = 0.92;     // of the tangents at its ends
 constexpr double unexplained_length = 1e-8;  // where changes of the index are taken as they are
 constexpr int most_secants = 60;
 constexpr double located_to = 1e-12;  // of the parameter
-constexpr double closed_to = 1e-5;
+// A place and the first one are the same; beside what the arcs leave out, of which rotations and the parameter were
+// seen 3 times as far apart as places (heavy curl).
+constexpr double closed_to = 1e-5, inaccuracies_apart = 10;
+constexpr double together = 0.01;  // of a step: a fold and a branch point that are one; chosen, not measured
 
 double sign_of(const PathPlace& place) {
   return place.negative ? -1 : 1;
@@ -73,7 +76,7 @@ void PathWalk::run() {
   for (std::size_t i = 0; i < forks_.size(); ++i) {
     const int multiplicity = forks_[i].multiplicity;
     const PathPlace place = stepper_.restored(forks_[i].at);
-    follow(stepper_.fork(place, multiplicity), static_cast<int>(i) + 1);
+    follow(stepper_.fork(place, multiplicity), static_cast<int>(i) + 1, multiplicity);
   }
 }
 
@@ -83,13 +86,13 @@ void PathWalk::run_from(const SavedPlace& start, bool back) {
   follow(place, 0);
 }
 
-void PathWalk::follow(PathPlace place, int branch) {
+void PathWalk::follow(PathPlace place, int branch, int multiplicity) {
   ended_ = false;
   first_ = place;
   curvature_ = stepper_.equations().zero_change();
   length_ = first_length;
   steps_ = 0;
-  add(place, Kind::start, branch);
+  add(place, Kind::start, branch, multiplicity);
   while (!ended_) {
     if (!stepper_.is_within_mesh(place) && !place.is_fork) {
       if (!stepper_.recentre(place)) return end(PathStatus::step_too_small, "the segments could not be cut anew");
@@ -168,6 +171,11 @@ std::optional<std::vector<PathWalk::Event>> PathWalk::events_between(const PathP
           events.push_back({length_ / 2, from, Kind::branch, std::min(2, change), std::nullopt});
       }
     }
+    if (events.size() == 2 && std::abs(events[0].length - events[1].length) < together * length_) {
+      events.erase(events.begin());
+      events.front().is_arrival = true;
+      if (is_first_again(events.front().place)) events.front().end = scene::PathStatus::closed;
+    }
   }
   add_stops(from, next, events);
   add_closure(from, next, events);
@@ -232,13 +240,20 @@ Eigen::Matrix<double, 13, 1> PathWalk::away_from_start(const PathPlace& place) c
   return away;
 }
 
+// On more arcs, too, than the first place.
+bool PathWalk::is_first_again(const PathPlace& place) {
+  const double inaccuracy_mm = first_.accuracy.error_mm + place.accuracy.error_mm;
+  const double near = closed_to + inaccuracies_apart * inaccuracy_mm / stepper_.equations().length_mm();
+  return away_from_start(place).norm() <= near;
+}
+
 void PathWalk::add_closure(const PathPlace& from, const PathPlace& next, std::vector<Event>& events) {
-  if (steps_ < 3) return;
+  if (steps_ < 3 || std::any_of(events.begin(), events.end(), [](const Event& e) { return e.is_arrival; })) return;
   const Eigen::Matrix<double, 13, 1> before = away_from_start(from), after = away_from_start(next);
   const Eigen::Matrix<double, 13, 1> way = after - before;
   if (!(before.dot(way) < 0 && after.dot(way) >= 0) || before.norm() > 2 * way.norm()) return;
   const auto event = located(from, next, Kind::end, [&](const PathPlace& p) { return away_from_start(p).dot(way); });
-  if (!event || away_from_start(event->place).norm() > closed_to) return;
+  if (!event || !is_first_again(event->place)) return;
   events.push_back(*event);
   events.back().end = PathStatus::closed;
 }
@@ -285,7 +300,7 @@ bool PathWalk::emit(const Event& event, int branch) {
   if (!status && settings_.ends_at && settings_.ends_at(event.place, event.kind)) status = PathStatus::reached;
   add(event.place, status ? Kind::end : event.kind, branch, event.multiplicity);
   if (event.kind == Kind::fold) stops_.push_back(event.place.state.parameter);
-  if (event.kind == Kind::branch && static_cast<int>(forks_.size()) < settings_.branches)
+  if (event.kind == Kind::branch && !event.is_arrival && static_cast<int>(forks_.size()) < settings_.branches)
     forks_.push_back({places_.back(), event.multiplicity});
   if (status) end(*status);
   return !status;

@@ -44,10 +44,13 @@ class PathWalk {
     Kind kind;
     int multiplicity = 0;
     std::optional<scene::PathStatus> end;
+    // A path that another one crosses where its own parameter turns back: a pitchfork, come to from the side. Beyond
+    // lies the path's mirror image.
+    bool is_arrival = false;
   };
   using Test = std::function<double(const PathPlace&)>;
 
-  void follow(PathPlace start, int branch);
+  void follow(PathPlace start, int branch, int multiplicity = 0);
   std::optional<PathPlace> take_step(PathPlace& from);
   bool is_fit(const PathPlace& from, const PathPlace& next) const;
   std::optional<std::vector<Event>> events_between(const PathPlace& from, const PathPlace& next);
@@ -56,6 +59,7 @@ class PathWalk {
   void add_closure(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
   std::optional<Event> located(const PathPlace& from, const PathPlace& next, Kind kind, const Test& test);
   Eigen::Matrix<double, 13, 1> away_from_start(const PathPlace& place) const;
+  bool is_first_again(const PathPlace& place);
   bool emit(const Event& event, int branch);
   void add(const PathPlace& place, Kind kind, int branch, int multiplicity = 0);
   void end(scene::PathStatus status, const std::string& message = {});

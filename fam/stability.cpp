@@ -30,7 +30,8 @@ bool agree(const Stability& a, const Stability& b, double share) {
 namespace {
 
 // Fields of small motions that leave the tip free, started there with three turns of it, marched to the clamp and
-// made the identity at each arc's end: visit(turn over the arc, whether it is the clamp's). Whether all was finite.
+// made the identity at each arc's end: visit(turn over the arc, whether it is the clamp's). The turns are those of the
+// base frame: of an unloaded arc the identity, however it is bent. Whether all was finite.
 template <class Visit>
 bool march_free_tip(const LoadedRod<3>& rod, std::span<const ArcRange> segments, std::span<const SectionState<3>> nodes,
                     Visit&& visit) {
@@ -38,8 +39,10 @@ bool march_free_tip(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
   int arcs_left = segments.back().end_arc;
   for (std::size_t k = segments.size(); k-- > 0;) {
     SectionState<3> state = nodes[k];
-    march_varied(rod, segments[k], state, fields, [&](const SectionState<3>&, Fields<3, 3>& f) {
-      visit(f.turn, --arcs_left == 0);
+    Matrix3d distal_SB = state.rotation_SB;
+    march_varied(rod, segments[k], state, fields, [&](const SectionState<3>& proximal, Fields<3, 3>& f) {
+      visit(Matrix3d(proximal.rotation_SB.transpose() * f.turn * distal_SB), --arcs_left == 0);
+      distal_SB = proximal.rotation_SB;
       const Matrix3d inverse = f.turn.inverse();
       f = {Matrix3d::Identity(), f.force_N * inverse, f.moment_Nmm * inverse};
     });

@@ -44,8 +44,8 @@ FAM_TENDON_STEP(true, double, 3)
 FAM_TENDON_STEP(false, double, 3)
 #undef FAM_TENDON_STEP
 
-#define FAM_SERIES(with_shear, terms, D)                                       \
-  template RodSeries<double, D, terms> series_of<with_shear, terms, D>(        \
+#define FAM_SERIES(with_shear, terms, D)                                \
+  template RodSeries<double, D, terms> series_of<with_shear, terms, D>( \
       const BasicArcConstants<D>&, const ArcForces<double, D>*, const BasicWrench<double, D>&);
 FAM_SERIES(true, 6, 3)
 FAM_SERIES(false, 6, 3)

@@ -1,0 +1,58 @@
+// Branches of equilibrium paths that lead from one branch point to another, and the number of unstable directions of
+// rods that are bent far round.
+#include "support.h"
+
+#include "fam/path.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace {
+
+using scene::PathPoint;
+using Kind = PathPoint::Kind;
+
+// Two turns of rest curvature in a plane, pulled straight by the tip.
+scene::PathRequest coil() {
+  scene::PathRequest request;
+  request.scene = support::uniform_rod(100, support::slender(1000, 1000 / 1.3),
+                                       {scene::Force{100, scene::Frame::fixed, {1, 0, 0}}});
+  request.scene.sections[0].rest_curvature_per_mm = {0, 0, 4 * std::numbers::pi / 100};
+  request.to = 40;
+  return request;
+}
+
+std::vector<PathPoint> critical_points(const scene::Path& path, int branch) {
+  std::vector<PathPoint> found;
+  for (const PathPoint& point : path.points) {
+    if (point.branch == branch && point.multiplicity > 0) found.push_back(point);
+  }
+  return found;
+}
+
+// Without loads every rod is stable: no energy is below that of its rest shape. Its arcs turn by 1.8 rad each.
+TEST(PathIndex, AnUnloadedCoilIsStable) {
+  const fam::Path path = fam::Path::follow(coil());
+  EXPECT_EQ(path.points().points.front().index, 0);
+  EXPECT_EQ(path.points().points.front().stable, true);
+}
+
+// Where its first branch leaves the plane and comes back into it, beyond which it is its own mirror image; the two
+// planar equilibria are others, so both points count once, and the branch ends where it began.
+TEST(PathBranches, EndWhereTheyBegan) {
+  scene::PathRequest request = coil();
+  request.branches = 1;
+  const fam::Path path = fam::Path::follow(request);
+  EXPECT_EQ(path.points().status, scene::PathStatus::reached);
+  const std::vector<PathPoint> met = critical_points(path.points(), 1);
+  ASSERT_EQ(met.size(), 3u);
+  EXPECT_EQ(met[0].kind, Kind::start);
+  EXPECT_EQ(met[1].kind, Kind::branch);
+  EXPECT_EQ(met[2].kind, Kind::end);
+  EXPECT_NEAR(met[2].parameter, met[0].parameter, 1e-6);  // measured 1e-8
+  for (const PathPoint& point : met) EXPECT_NEAR(point.tip_position_B_mm[2], 0, 1e-2);
+  EXPECT_LT(path.points().points.size(), 200u);  // measured 127
+}
+
+}  // namespace
