@@ -138,6 +138,7 @@ class PathEquations {
  private:
   using Placed = std::vector<Arc>;
 
+  double largest_swing_rad(const PathState& state);
   bool evaluate(const PathState& state, const PathBorder& border, bool with_parameter);
   void add_border(const PathBorder& border);
   Change residual_at(const PathState& state, double parameter);

@@ -248,7 +248,7 @@ bool PathWalk::is_first_again(const PathPlace& place) {
 }
 
 void PathWalk::add_closure(const PathPlace& from, const PathPlace& next, std::vector<Event>& events) {
-  if (steps_ < 3 || std::any_of(events.begin(), events.end(), [](const Event& e) { return e.is_arrival; })) return;
+  if (steps_ < 3 || std::any_of(events.begin(), events.end(), [](const Event& e) { return e.end.has_value(); })) return;
   const Eigen::Matrix<double, 13, 1> before = away_from_start(from), after = away_from_start(next);
   const Eigen::Matrix<double, 13, 1> way = after - before;
   if (!(before.dot(way) < 0 && after.dot(way) >= 0) || before.norm() > 2 * way.norm()) return;
