@@ -1,9 +1,9 @@
 #include "apps/path_command.h"
 
-#include "apps/path_chart.h"
 #include "fam/path.h"
 #include "scene/path_file.h"
 #include "studies/report/output_file.h"
+#include "studies/report/path_chart.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +25,9 @@ int run_path(const PathArguments& arguments) {
   const std::string source = arguments.path == "-" ? "(standard input)" : arguments.path;
   if (!arguments.svg_path.empty() && !path.points.empty()) {
     const std::string title = request.scene.title.empty() ? "equilibrium path" : request.scene.title;
-    studies::write_file(arguments.svg_path, path_chart(followed, title, scene::name_of_parameter(request)));
+    const auto centreline_mm = [&](std::size_t point) { return followed.centreline_mm(point); };
+    studies::write_file(arguments.svg_path,
+                        studies::path_chart(path, centreline_mm, title, scene::name_of_parameter(request)));
   }
   if (arguments.format == "json") fmt::print("{}", scene::to_json(path));
   else if (!path.points.empty())

@@ -236,6 +236,7 @@ PathPlace PathStepper::restored(const SavedPlace& saved) {
 
 void PathStepper::reverse(PathPlace& place) const {
   place.tangent = -place.tangent;
+  place.negative = !place.negative;  // the tangent is a row of that determinant
 }
 
 PathPlace PathStepper::fork(const PathPlace& place, int multiplicity) {

@@ -19,6 +19,7 @@ constexpr double least_alignment = 0.92;     // of the tangents at its ends
 constexpr double unexplained_length = 1e-8;  // where changes of the index are taken as they are
 constexpr int most_secants = 60;
 constexpr double located_to = 1e-12;  // of the parameter
+constexpr double is_zero = 1e-4;      // of a test's larger value at the ends of the step; chosen, not measured
 // A place and the first one are the same; beside what the arcs leave out, of which rotations and the parameter were
 // seen 3 times as far apart as places (heavy curl).
 constexpr double closed_to = 1e-5, inaccuracies_apart = 10;
@@ -188,7 +189,8 @@ std::optional<std::vector<PathWalk::Event>> PathWalk::events_between(const PathP
 void PathWalk::add_turning_points(const PathPlace& from, const PathPlace& next, std::vector<Event>& events) {
   const auto add_located = [&](Kind kind, int multiplicity, const Test& test) {
     std::optional<Event> event = located(from, next, kind, test);
-    if (!event) event = Event{-1, from, kind, 0, std::nullopt};
+    const double small = is_zero * std::max(std::abs(test(from)), std::abs(test(next)));
+    if (!event || std::abs(test(event->place)) > small) event = Event{-1, from, kind, 0, std::nullopt};
     event->multiplicity = multiplicity;
     if (from.index && next.index) event->place.index = std::min(*from.index, *next.index);
     events.push_back(*event);
@@ -258,7 +260,9 @@ void PathWalk::add_closure(const PathPlace& from, const PathPlace& next, std::ve
   events.back().end = PathStatus::closed;
 }
 
-// The zero of a test between two places, by secants (Illinois) from the place before it.
+// The zero of a test between two places, by secants (Illinois) from the place before it: near it, where the equations
+// may be singular, Newton's method then has next to nothing to do. Lengths from different places are not quite the
+// same, so the end of the bracket may come out as if it were the zero.
 std::optional<PathWalk::Event> PathWalk::located(const PathPlace& from, const PathPlace& next, Kind kind,
                                                  const Test& test) {
   PathPlace low = from, high = next;

@@ -23,6 +23,7 @@ namespace studies {
   row(work_precision, "Which method is fastest at my accuracy?", "5 min", false) \
   row(stability, "Where does each method fail?", "1 min", false) \
   row(model_choice, "Which model does my scene need?", "3 min", false) \
+  row(paths, "Where does it snap, and where to?", "1 min", false) \
   row(stream, "How fast is a kept solver on a stream of loads?", "10 s", false) \
   row(batch, "How many rods a second?", "1 min", false) \
   row(walks, "Does a kept solver stay on its branch?", "15 min", true) \

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace {
@@ -53,6 +54,34 @@ TEST(PathBranches, EndWhereTheyBegan) {
   EXPECT_NEAR(met[2].parameter, met[0].parameter, 1e-6);  // measured 1e-8
   for (const PathPoint& point : met) EXPECT_NEAR(point.tip_position_B_mm[2], 0, 1e-2);
   EXPECT_LT(path.points().points.size(), 200u);  // measured 127
+}
+
+// A bent finger under thrust, pulled over by its tendon. In the mirror the rest curvature k0 and the tension T change
+// their signs, and EI k0 and T times its arm act alike: both folds lie as far from T = EI k0 / arm, whatever the arcs.
+double middle_of_folds_N(const scene::Scene& rod, int arcs) {
+  scene::PathRequest request;
+  request.scene = rod;
+  request.parameter = scene::PathParameter::value;
+  request.loads = {1};
+  request.to = 6;
+  fam::Options options;
+  options.arcs = arcs;
+  std::vector<double> folds;
+  const fam::Path path = fam::Path::follow(request, options);
+  for (const PathPoint& point : critical_points(path.points(), 0)) folds.push_back(point.parameter);
+  return folds.size() == 2 ? (folds[0] + folds[1]) / 2 : std::nan("");
+}
+
+TEST(PathBranches, FoldsThatMirrorEachOther) {
+  scene::Stiffness stiffness = support::slender(2000, 3000);
+  stiffness.bending_Nmm2[0] = 4000;
+  scene::Scene finger = support::uniform_rod(
+      100, stiffness, {scene::Force{100, scene::Frame::fixed, {-0.7, 0, 0}}, scene::Tendon{{4, 0}, 1, 100}});
+  finger.sections[0].rest_curvature_per_mm = {0, 0, -0.005};
+  for (const int arcs : {4, 16, 32, 64}) {
+    EXPECT_NEAR(middle_of_folds_N(finger, arcs), 2.5, 1e-10);  // measured 5e-13
+    EXPECT_NEAR(middle_of_folds_N(support::stiffer(finger), arcs), 1.05 * 2.5, 1e-10);
+  }
 }
 
 }  // namespace

@@ -266,8 +266,9 @@ TEST(Path, GoesOnFromASavedPoint) {
   ASSERT_EQ(folds.size(), 2u);
   EXPECT_NEAR(folds[0].parameter, fold->parameter, 1e-10);
   const scene::Path back = fam::Path::follow_on(request, whole, before, true, options).points();
-  EXPECT_EQ(back.status, PathStatus::returned);
+  EXPECT_EQ(back.status, PathStatus::returned) << back.message;
   EXPECT_TRUE(of_kind(back, Kind::fold).empty());
+  EXPECT_TRUE(of_kind(back, Kind::branch).empty());
 }
 
 TEST(Path, WrongRequestsAreRefused) {

@@ -1,9 +1,9 @@
 #include "studies/model_choice/random_choice.h"
-#include "studies/report/table.h"
 
 #include "exact_reference/solve.h"
 #include "fam/solve.h"
 #include "studies/model_choice/ladder.h"
+#include "studies/report/table.h"
 #include "studies/scenes/random_scene.h"
 
 #include <algorithm>
