@@ -174,6 +174,17 @@ std::optional<PathPlace> PathStepper::at(const PathPlace& near, double parameter
   return place;
 }
 
+bool PathStepper::may_double_for_critical_points() const {
+  constexpr int most = 256;  // arcs to double; of the sixth order, more bring nothing but round-off
+  return options_.arcs == 0 && equations_.rod().arc_count() <= most;
+}
+
+double PathStepper::parameter_tolerance(double parameter) const {
+  constexpr double finest = 1e-10, least_share = 1e-2;  // of the range, near zero
+  const double share = std::max(tolerance_mm_ / equations_.length_mm(), finest);
+  return share * std::max(std::abs(parameter), least_share * settings_.unit);
+}
+
 bool PathStepper::is_accurate(const PathPlace& place) const {
   if (options_.arcs > 0) return true;
   return place.accuracy.error_mm <= tolerance_mm_ && place.accuracy.swing_rad <= longest_path_swing_rad;

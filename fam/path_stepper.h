@@ -59,6 +59,9 @@ class PathStepper {
   // The solution with exactly this parameter, near one.
   std::optional<PathPlace> at(const PathPlace& near, double parameter);
 
+  bool may_double_for_critical_points() const;
+  // How far a critical value of the parameter may be off: the share of it that the tolerance is of the length.
+  double parameter_tolerance(double parameter) const;
   // Whether the place is as accurate as asked for, with arcs that do not swing too far.
   bool is_accurate(const PathPlace& place) const;
   // The place again with twice the arcs; with segments for loads about its own. False: that cannot be done.

@@ -43,7 +43,7 @@ class PathWalk {
     PathPlace place;
     Kind kind;
     int multiplicity = 0;
-    std::optional<scene::PathStatus> end;
+    std::optional<scene::PathStatus> end = std::nullopt;
     // A path that another one crosses where its own parameter turns back: a pitchfork, come to from the side. Beyond
     // lies the path's mirror image.
     bool is_arrival = false;
@@ -57,6 +57,8 @@ class PathWalk {
   void add_turning_points(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
   void add_stops(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
   void add_closure(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
+  bool hold_on_more_arcs(PathPlace& from, const std::vector<Event>& events);
+  Event crossing(const PathPlace& from, const Event& near);
   std::optional<Event> located(const PathPlace& from, const PathPlace& next, Kind kind, const Test& test);
   Eigen::Matrix<double, 13, 1> away_from_start(const PathPlace& place) const;
   bool is_first_again(const PathPlace& place);
@@ -77,6 +79,8 @@ class PathWalk {
   std::vector<Fork> forks_;
   PathPlace first_;  // of the branch that is followed
   PathChange curvature_;
+  static constexpr double located_to = 1e-12;  // of the parameter
+  double located_to_ = located_to;
   double length_ = 0;
   int steps_ = 0;  // on this branch
   bool ended_ = false;

@@ -1,0 +1,252 @@
+// What happens in a step of a path: folds, branch points, stops, the end.
+#include "fam/path_walk.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace fam {
+namespace {
+
+using scene::PathStatus;
+
+constexpr double unexplained_length = 1e-8;  // where changes of the index are taken as they are
+constexpr int most_secants = 60;
+constexpr double is_zero = 1e-3;  // of a test's larger value at the ends of the step; chosen, not measured
+// A place and the first one are the same; beside what the arcs leave out, of which rotations and the parameter were
+// seen 3 times as far apart as places (heavy curl).
+constexpr double closed_to = 1e-4, inaccuracies_apart = 10;
+constexpr double crossing_apart = 0.02;  // of a step, chosen: with a tenth of it round-off is as large as the error
+constexpr double together = 0.01;        // of a step: a fold and a branch point that are one; chosen, not measured
+
+double sign_of(const PathPlace& place) {
+  return place.negative ? -1 : 1;
+}
+
+// Of the turn across, over that at another place.
+double cross_ratio(const PathPlace& place, const PathPlace& other) {
+  const double size = std::exp(std::clamp(place.cross->log_size - other.cross->log_size, -700.0, 700.0));
+  return size * (place.cross->direction * std::conj(other.cross->direction)).real();
+}
+
+double determinant_ratio(const PathPlace& place, const PathPlace& other) {
+  const double size = std::exp(std::clamp(place.log_determinant - other.log_determinant, -700.0, 700.0));
+  return sign_of(place) * size;
+}
+
+}  // namespace
+
+// Empty: the step must be shorter.
+std::optional<std::vector<PathWalk::Event>> PathWalk::events_between(const PathPlace& from, const PathPlace& next) {
+  std::vector<Event> events;
+  if (!from.is_fork) {
+    add_turning_points(from, next, events);
+    int explained = 0;
+    for (const Event& event : events) {
+      if (event.length < 0) return std::nullopt;
+      explained += event.multiplicity;
+    }
+    if (from.index && next.index) {
+      const int change = std::abs(*next.index - *from.index);
+      if (change > explained || (explained - change) % 2 != 0) {
+        if (length_ > unexplained_length) return std::nullopt;
+        if (change > explained && steps_ > 0) events.push_back({length_ / 2, from, Kind::branch, std::min(2, change)});
+      }
+    }
+    if (events.size() == 2 && std::abs(events[0].length - events[1].length) < together * length_) {
+      events = {crossing(from, events[1])};
+      if (is_first_again(events.front().place)) events.front().end = scene::PathStatus::closed;
+    }
+  }
+  add_stops(from, next, events);
+  add_closure(from, next, events);
+  for (const Event& event : events) {
+    if (event.length < 0) return std::nullopt;
+  }
+  return events;
+}
+
+// Whether twice the arcs put the folds and branch points of a step where these arcs do, to the tolerance; else `from`
+// gets them. Of a rod on its axis nothing but its critical points tells how many arcs they take.
+bool PathWalk::hold_on_more_arcs(PathPlace& from, const std::vector<Event>& events) {
+  const auto critical = [](std::vector<Event> all) {
+    std::erase_if(all, [](const Event& e) { return e.kind != Kind::fold && e.kind != Kind::branch && !e.is_arrival; });
+    return all;
+  };
+  const std::vector<Event> coarse = critical(events);
+  if (coarse.empty() || !stepper_.may_double_for_critical_points()) return true;
+  const SavedPlace before = stepper_.saved(from);
+  const PathChange curvature = curvature_;
+  PathPlace finer = from;
+  const bool refined = stepper_.refine(finer);
+  curvature_ = stepper_.equations().zero_change();
+  const double allowed = stepper_.parameter_tolerance(coarse.front().place.state.parameter);
+  located_to_ = std::max(located_to, 0.01 * allowed / stepper_.unit());
+  bool hold = !refined;
+  if (const auto next = refined ? stepper_.step(finer, length_, curvature_) : std::nullopt) {
+    if (auto found = events_between(finer, *next)) {
+      const std::vector<Event> fine = critical(*found);
+      hold = fine.size() == coarse.size();
+      for (std::size_t i = 0; hold && i < fine.size(); ++i) {
+        const double there = fine[i].place.state.parameter, here = coarse[i].place.state.parameter;
+        hold = std::abs(there - here) <= stepper_.parameter_tolerance(here);
+      }
+    }
+  }
+  located_to_ = located_to;
+  from = hold ? stepper_.restored(before) : finer;
+  if (hold) curvature_ = curvature;
+  return hold;
+}
+
+void PathWalk::add_turning_points(const PathPlace& from, const PathPlace& next, std::vector<Event>& events) {
+  const auto add_located = [&](Kind kind, int multiplicity, const Test& test) {
+    std::optional<Event> event = located(from, next, kind, test);
+    const double small = is_zero * std::max(std::abs(test(from)), std::abs(test(next)));
+    if (!event || std::abs(test(event->place)) > small) event = Event{-1, from, kind, 0};
+    event->multiplicity = multiplicity;
+    if (from.index && next.index) event->place.index = std::min(*from.index, *next.index);
+    events.push_back(*event);
+  };
+  if (from.slope() * next.slope() < 0) add_located(Kind::fold, 1, [](const PathPlace& p) { return p.slope(); });
+  if (from.cross && next.cross) {
+    if (cross_ratio(next, from) < 0)
+      add_located(Kind::branch, 2, [&](const PathPlace& p) { return cross_ratio(p, from); });
+  } else if (from.negative != next.negative) {
+    add_located(Kind::branch, 1, [&](const PathPlace& p) { return determinant_ratio(p, from) * sign_of(from); });
+  }
+}
+
+void PathWalk::add_stops(const PathPlace& from, const PathPlace& next, std::vector<Event>& events) {
+  const auto passes = [&](double value) {
+    return (from.state.parameter - value) * (next.state.parameter - value) < 0 || next.state.parameter == value;
+  };
+  const auto add_located = [&](double value, std::optional<PathStatus> status) {
+    if (!passes(value)) return;
+    std::optional<Event> event = located(from, next, status ? Kind::end : Kind::regular,
+                                         [&](const PathPlace& p) { return p.state.parameter - value; });
+    if (event) {
+      if (const auto exact = stepper_.at(event->place, value)) event->place = *exact;
+    } else {
+      event = Event{-1, from, Kind::regular, 0};
+    }
+    event->end = status;
+    events.push_back(*event);
+  };
+  for (const double stop : stops_) add_located(stop, std::nullopt);
+  for (const double limit : {settings_.range.lowest, settings_.range.highest}) {
+    const PathStatus status = limit == settings_.to ? PathStatus::reached : PathStatus::returned;
+    const double outwards = limit == settings_.range.lowest ? -1 : 1;
+    if (outwards * (next.state.parameter - limit) < 0) continue;  // a start on new arcs may lie outside by round-off
+    if (outwards * (from.state.parameter - limit) >= 0) events.push_back({0, from, Kind::end, 0, status});
+    else add_located(limit, status);
+  }
+}
+
+// Tip and parameter, as they differ from the first place's.
+Eigen::Matrix<double, 13, 1> PathWalk::away_from_start(const PathPlace& place) const {
+  Eigen::Matrix<double, 13, 1> away;
+  const Matrix3d rotation = place.state.nodes.back().rotation_SB - first_.state.nodes.back().rotation_SB;
+  double change = place.state.parameter - first_.state.parameter;
+  if (is_turn_) change = std::remainder(change, 2 * std::numbers::pi);
+  const double length = first_.tip_position_B_mm.norm() + place.tip_position_B_mm.norm();
+  away << (place.tip_position_B_mm - first_.tip_position_B_mm) / std::max(length, 1e-300), rotation.reshaped(),
+      change / stepper_.unit();
+  return away;
+}
+
+// On more arcs, too, than the first place.
+bool PathWalk::is_first_again(const PathPlace& place) {
+  const double inaccuracy_mm = first_.accuracy.error_mm + place.accuracy.error_mm;
+  const double near = closed_to + inaccuracies_apart * inaccuracy_mm / stepper_.equations().length_mm();
+  return away_from_start(place).norm() <= near;
+}
+
+void PathWalk::add_closure(const PathPlace& from, const PathPlace& next, std::vector<Event>& events) {
+  if (steps_ < 3 || std::any_of(events.begin(), events.end(), [](const Event& e) { return e.end.has_value(); })) return;
+  const Eigen::Matrix<double, 13, 1> before = away_from_start(from), after = away_from_start(next);
+  const Eigen::Matrix<double, 13, 1> way = after - before;
+  if (!(before.dot(way) < 0 && after.dot(way) >= 0) || before.norm() > 2 * way.norm()) return;
+  const auto event = located(from, next, Kind::end, [&](const PathPlace& p) { return away_from_start(p).dot(way); });
+  if (!event || !is_first_again(event->place)) return;
+  events.push_back(*event);
+  events.back().end = PathStatus::closed;
+}
+
+// The zero of a test between two places, by secants (Illinois) from the place before it: near it, where the equations
+// may be singular, Newton's method then has next to nothing to do. Lengths from different places are not quite the
+// same, so the end of the bracket may come out as if it were the zero.
+std::optional<PathWalk::Event> PathWalk::located(const PathPlace& from, const PathPlace& next, Kind kind,
+                                                 const Test& test) {
+  PathPlace low = from, high = next;
+  double f_low = test(low), f_high = test(high), length = length_, done = 0;
+  if (f_high == 0) return Event{length, next, kind, 0};
+  int side = 0;
+  for (int secant = 0; secant < most_secants; ++secant) {
+    const double share = f_low / (f_low - f_high);
+    double ahead = std::clamp(share, 0.0, 1.0) * length;
+    const double size = std::clamp(std::abs(low.state.parameter) / stepper_.unit(), 1e-4, 1.0);
+    const PathChange curvature = (high.tangent - low.tangent) / length;
+    std::optional<PathPlace> at = stepper_.step(low, ahead, curvature, PathStepper::Newton::tight);
+    if (!at) at = stepper_.step(low, ahead = length / 2, curvature, PathStepper::Newton::tight);
+    if (!at) return std::nullopt;
+    const double f = test(*at);
+    if (f == 0 || std::min(ahead, length - ahead) < located_to_ * size) return Event{done + ahead, *at, kind, 0};
+    if (f * f_low > 0) {
+      low = *at;
+      f_low = f;
+      done += ahead;
+      length -= ahead;
+      if (side == -1) f_high /= 2;
+      side = -1;
+    } else {
+      high = *at;
+      f_high = f;
+      length = ahead;
+      if (side == 1) f_low /= 2;
+      side = 1;
+    }
+  }
+  return std::nullopt;
+}
+
+// Where another path crosses this one at a turning point the equations are singular: the place is interpolated between
+// three on either side. Length below 0: not found.
+PathWalk::Event PathWalk::crossing(const PathPlace& from, const Event& near) {
+  constexpr std::array offsets{-3.0, -2.0, -1.0, 1.0, 2.0, 3.0};
+  const double apart = crossing_apart * length_;
+  std::array<PathPlace, offsets.size()> places;
+  std::array<double, offsets.size()> slopes;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto at = stepper_.step(from, near.length + offsets[i] * apart, curvature_, PathStepper::Newton::tight);
+    if (!at) return {-1, from, Kind::branch};
+    places[i] = *at;
+    slopes[i] = at->slope();
+  }
+  const auto share = [](const auto& nodes, std::size_t i, double x) {  // Lagrange's
+    double product = 1;
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+      if (j != i) product *= (x - nodes[j]) / (nodes[i] - nodes[j]);
+    }
+    return product;
+  };
+  double zero = 0;
+  for (std::size_t i = 0; i < offsets.size(); ++i) zero += share(slopes, i, 0) * offsets[i];
+  Event event{near.length + zero * apart, places[2], Kind::branch, 1};
+  event.is_arrival = true;
+  PathPlace& place = event.place;
+  place.index = near.place.index;
+  const double onwards = zero - offsets[2], between = offsets[3] - offsets[2];
+  const PathChange mean = places[2].tangent + onwards / (2 * between) * (places[3].tangent - places[2].tangent);
+  place.state = stepper_.equations().moved(places[2].state, mean, onwards * apart);
+  place.state.parameter = 0;
+  place.tip_position_B_mm.setZero();
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    place.state.parameter += share(offsets, i, zero) * places[i].state.parameter;
+    place.tip_position_B_mm += share(offsets, i, zero) * places[i].tip_position_B_mm;
+  }
+  return event;
+}
+
+}  // namespace fam
