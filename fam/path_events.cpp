@@ -1,6 +1,8 @@
 // What happens in a step of a path: folds, branch points, stops, the end.
 #include "fam/path_walk.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +18,7 @@ constexpr int most_secants = 60;
 constexpr double is_zero = 1e-3;  // of a test's larger value at the ends of the step; chosen, not measured
 // A place and the first one are the same; beside what the arcs leave out, of which rotations and the parameter were
 // seen 3 times as far apart as places (heavy curl).
-constexpr double closed_to = 1e-4, inaccuracies_apart = 10;
+constexpr double closed_to = 1e-5, inaccuracies_apart = 10;
 constexpr double crossing_apart = 0.02;  // of a step, chosen: with a tenth of it round-off is as large as the error
 constexpr double together = 0.01;        // of a step: a fold and a branch point that are one; chosen, not measured
 
@@ -237,15 +239,21 @@ PathWalk::Event PathWalk::crossing(const PathPlace& from, const Event& near) {
   event.is_arrival = true;
   PathPlace& place = event.place;
   place.index = near.place.index;
-  const double onwards = zero - offsets[2], between = offsets[3] - offsets[2];
-  const PathChange mean = places[2].tangent + onwards / (2 * between) * (places[3].tangent - places[2].tangent);
-  place.state = stepper_.equations().moved(places[2].state, mean, onwards * apart);
   place.state.parameter = 0;
   place.tip_position_B_mm.setZero();
+  for (SectionState<3>& node : place.state.nodes) node = {Matrix3d::Zero(), {}};
   for (std::size_t i = 0; i < offsets.size(); ++i) {
-    place.state.parameter += share(offsets, i, zero) * places[i].state.parameter;
-    place.tip_position_B_mm += share(offsets, i, zero) * places[i].tip_position_B_mm;
+    const double part = share(offsets, i, zero);
+    place.state.parameter += part * places[i].state.parameter;
+    place.tip_position_B_mm += part * places[i].tip_position_B_mm;
+    for (std::size_t k = 0; k < place.state.nodes.size(); ++k) {
+      const SectionState<3>& node = places[i].state.nodes[k];
+      place.state.nodes[k].rotation_SB += part * node.rotation_SB;
+      place.state.nodes[k].wrench = place.state.nodes[k].wrench + part * node.wrench;
+    }
   }
+  for (SectionState<3>& node : place.state.nodes)
+    node.rotation_SB = Eigen::Quaterniond(node.rotation_SB).normalized().toRotationMatrix();
   return event;
 }
 

@@ -73,8 +73,8 @@ const std::vector<PathCase>& path_cases() {
        "Strip on edge",
        "A strip pressed on its edge topples sideways and twists.",
        5,
-       {{"topples at, over √(EI GJ)/L²", "Prandtl, Michell 1899; zero of J₋₁⸝₄", 4.01259934357890, critical(0)},
-        {"second mode", "second zero of J₋₁⸝₄", 20.49225097098538 / 2, critical(1)}}},
+       {{"topples at, over √(EI GJ)/L²", "Prandtl, Michell 1899; zero of J₋₁⸝₄ ¹", 4.01259934357890, critical(0), 2e-6},
+        {"second mode", "second zero of J₋₁⸝₄ ¹", 20.49225097098538 / 2, critical(1), 2e-6}}},
       {"turned_clamp",
        "Curved rod turned in its clamp",
        "A rod with rest curvature and a weight on a lever arm at its tip lags behind its clamp, snaps round past half "

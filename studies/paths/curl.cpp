@@ -10,9 +10,9 @@ namespace {
 
 using scene::PathPoint;
 
-constexpr double weights[] = {5, 7, 10, 14, 20, 28, 40, 56, 80, 113, 160};  // w L^3/EI
-constexpr double largest_curvature = 15;                                    // times L
-constexpr std::size_t judged_every = 4;                                     // by the exact reference
+constexpr double weights[] = {10, 11, 12, 14, 20, 28, 40, 56, 80, 113, 160};  // w L^3/EI
+constexpr double largest_curvature = 15;                                      // times L
+constexpr std::size_t judged_every = 4;                                       // by the exact reference
 
 // The parameter of the first point of a kind on a branch, its start left out.
 std::optional<double> first_critical(const scene::Path& path, int branch) {

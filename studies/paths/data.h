@@ -20,6 +20,7 @@ struct KnownNumber {
   std::string what, source;
   double value;
   std::function<std::optional<double>(const scene::Path&)> of_path;
+  double worth = 0;  // relative: what the number neglects
 };
 
 // A file of studies/cases/paths, followed by all.

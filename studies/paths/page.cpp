@@ -33,6 +33,7 @@ double farthest_from_known(const PathsData& data, PathMethods method) {
   double farthest = 0;
   for (const PathOutcome& o : data.outcomes) {
     for (const KnownNumber& known : o.of.known) {
+      if (known.worth > 0) continue;
       const std::optional<double> value = known.of_path(o.followed[method].path);
       farthest = std::max(farthest, value ? std::abs(*value / known.value - 1) : 1.0);
     }
@@ -42,7 +43,9 @@ double farthest_from_known(const PathsData& data, PathMethods method) {
 
 int known_numbers(const PathsData& data) {
   int count = 0;
-  for (const PathOutcome& o : data.outcomes) count += static_cast<int>(o.of.known.size());
+  for (const PathOutcome& o : data.outcomes)
+    count += static_cast<int>(
+        std::count_if(o.of.known.begin(), o.of.known.end(), [](const KnownNumber& k) { return k.worth == 0; }));
   return count;
 }
 

@@ -54,13 +54,16 @@ void mark_points(const scene::Path& path, Panel& panel) {
   }
 }
 
-// Start, end, and the first fold between them, or else the middle.
+// Start, the first fold (or else the middle), and the end; of a path with branches the middle of the first of these.
 std::array<std::size_t, 3> chosen_points(const scene::Path& path) {
-  const auto fold = std::find_if(path.points.begin(), path.points.end(),
-                                 [](const PathPoint& p) { return p.kind == PathPoint::Kind::fold; });
-  const std::size_t last = path.points.size() - 1;
-  const auto middle = fold == path.points.end() ? last / 2 : static_cast<std::size_t>(fold - path.points.begin());
-  return {0, middle, last};
+  const auto first = [&](const auto& is) {
+    return static_cast<std::size_t>(std::find_if(path.points.begin(), path.points.end(), is) - path.points.begin());
+  };
+  const std::size_t count = path.points.size();
+  const std::size_t branch = first([](const PathPoint& p) { return p.branch == 1; });
+  const std::size_t next_branch = first([](const PathPoint& p) { return p.branch > 1; });
+  const std::size_t fold = first([](const PathPoint& p) { return p.kind == PathPoint::Kind::fold; });
+  return {0, fold < count ? fold : branch / 2, branch < count ? (branch + next_branch) / 2 : count - 1};
 }
 
 // Along x and, of y and z, the one that the shapes reach farther along.
