@@ -8,6 +8,7 @@
 #include "studies/report/output_file.h"
 #include "studies/report/provenance.h"
 #include "studies/stability/data.h"
+#include "studies/stability/folds.h"
 
 #include <Eigen/Geometry>
 
@@ -172,6 +173,7 @@ class Stability {
   void write() const {
     std::map<std::string, std::string> files = stability_tables(data_);
     files.merge(stability_pictures(data_));
+    files.merge(fold_files(fold_curves()));
     files["README.md"] = stability_page(data_, options_.pages / "stability/page.md");
     files[answers_file] = answers_json(stability_answers(data_));
     for (const BreakingScene& b : data_.breaking) files["scenes/" + b.name + ".json"] = scene::write_scene(b.scene);
