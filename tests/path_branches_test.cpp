@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -81,6 +82,29 @@ TEST(PathBranches, FoldsThatMirrorEachOther) {
   for (const int arcs : {4, 16, 32, 64}) {
     EXPECT_NEAR(middle_of_folds_N(finger, arcs), 2.5, 1e-10);  // measured 5e-13
     EXPECT_NEAR(middle_of_folds_N(support::stiffer(finger), arcs), 1.05 * 2.5, 1e-10);
+  }
+}
+
+// A straight column's shape does not tell how many arcs its buckling takes. Euler: pi^2/4, and 9 times that.
+TEST(PathBranches, CriticalLoadsAreWithinTheTolerance) {
+  const auto off = [](double tolerance, double stiffer) {
+    scene::PathRequest request;
+    request.scene = support::stiffer(
+        support::uniform_rod(1, support::slender(1, 0.7), {scene::Force{1, scene::Frame::fixed, {-1, 0, 0}}}), stiffer);
+    request.to = 25;
+    fam::Options options;
+    options.tolerance_mm = tolerance;
+    const fam::Path path = fam::Path::follow(request, options);
+    double largest = 0, euler = std::numbers::pi * std::numbers::pi / 4;
+    for (const PathPoint& point : critical_points(path.points(), 0)) {
+      largest = std::max(largest, std::abs(point.parameter / euler - 1));
+      euler *= 9;
+    }
+    return largest;
+  };
+  for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8}) {
+    EXPECT_LT(off(tolerance, 1), tolerance);
+    EXPECT_GT(off(tolerance, 1.05), 0.04);
   }
 }
 

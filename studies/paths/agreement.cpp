@@ -22,35 +22,13 @@ std::vector<PathPoint> chosen(const scene::Path& path, int branch, const std::fu
   return found;
 }
 
-void compare_stops(const std::vector<PathPoint>& here, const std::vector<PathPoint>& exact, double length_mm,
-                   PathAgreement& result) {
+// In their order; `compare` tells whether two are the same place.
+template <class Compare>
+void compare_each(const std::vector<PathPoint>& here, const std::vector<PathPoint>& exact, PathAgreement& result,
+                  const Compare& compare) {
   const std::size_t both = std::min(here.size(), exact.size());
   result.missing += static_cast<int>(std::max(here.size(), exact.size()) - both);
-  for (std::size_t i = 0; i < both; ++i) {
-    if (here[i].parameter != exact[i].parameter) {
-      ++result.missing;
-      continue;
-    }
-    ++result.places;
-    result.farthest_tip =
-        std::max(result.farthest_tip, (here[i].tip_position_B_mm - exact[i].tip_position_B_mm).norm() / length_mm);
-    if (!here[i].index || !exact[i].index) continue;
-    ++result.indexed;
-    result.same_index += *here[i].index == *exact[i].index;
-  }
-}
-
-void compare_critical(const std::vector<PathPoint>& here, const std::vector<PathPoint>& exact, PathAgreement& result) {
-  const std::size_t both = std::min(here.size(), exact.size());
-  result.missing += static_cast<int>(std::max(here.size(), exact.size()) - both);
-  for (std::size_t i = 0; i < both; ++i) {
-    if (here[i].kind != exact[i].kind) {
-      ++result.missing;
-      continue;
-    }
-    ++result.places;
-    result.farthest_critical = std::max(result.farthest_critical, std::abs(here[i].parameter / exact[i].parameter - 1));
-  }
+  for (std::size_t i = 0; i < both; ++i) ++(compare(here[i], exact[i]) ? result.places : result.missing);
 }
 
 }  // namespace
@@ -65,9 +43,22 @@ PathAgreement agreement(const scene::Path& path, const scene::Path& exact, const
   const auto is_stop = [&](const PathPoint& point) {
     return point.kind == Kind::regular && std::find(stops.begin(), stops.end(), point.parameter) != stops.end();
   };
+  const auto same_stop = [&](const PathPoint& here, const PathPoint& there) {
+    if (here.parameter != there.parameter) return false;
+    const double apart_mm = (here.tip_position_B_mm - there.tip_position_B_mm).norm();
+    result.farthest_tip = std::max(result.farthest_tip, apart_mm / length_mm);
+    result.indexed += here.index && there.index;
+    result.same_index += here.index && here.index == there.index;
+    return true;
+  };
+  const auto same_critical = [&](const PathPoint& here, const PathPoint& there) {
+    if (here.kind != there.kind) return false;
+    result.farthest_critical = std::max(result.farthest_critical, std::abs(here.parameter / there.parameter - 1));
+    return true;
+  };
   for (int branch = 0; branch < branches; ++branch) {
-    compare_stops(chosen(path, branch, is_stop), chosen(exact, branch, is_stop), length_mm, result);
-    compare_critical(chosen(path, branch, is_critical), chosen(exact, branch, is_critical), result);
+    compare_each(chosen(path, branch, is_stop), chosen(exact, branch, is_stop), result, same_stop);
+    compare_each(chosen(path, branch, is_critical), chosen(exact, branch, is_critical), result, same_critical);
   }
   return result;
 }
