@@ -20,6 +20,7 @@ constexpr double lowest_factor = -1, highest_factor = 2;  // how far the path ma
 constexpr double longest_load_step = 0.05;
 constexpr double limit_tolerance = 1e-6;  // of the length: a fold's load is then right to six digits
 constexpr int most_limit_points = 3000;
+constexpr long long most_limit_arcs = 300'000;  // solved: some seconds
 
 PathWalk::Settings settings_for(const scene::Scene& scene, double reached) {
   const bool pulls = std::any_of(scene.loads.begin(), scene.loads.end(),
@@ -31,6 +32,7 @@ PathWalk::Settings settings_for(const scene::Scene& scene, double reached) {
   settings.stops = {1};
   settings.largest_step = longest_load_step;
   settings.most_points = most_limit_points;
+  settings.most_arcs = most_limit_arcs;
   return settings;
 }
 

@@ -6,6 +6,7 @@ namespace fam {
 namespace {
 
 constexpr int most_points = 20'000;  // of a path with its branches; chosen, not measured
+constexpr long long most_arcs = 100'000'000;  // minutes; chosen, not measured
 constexpr int fewest_places = 60;    // of a centreline
 constexpr int fewest_steps = 20;     // through the range, where the largest is not given
 
@@ -19,6 +20,7 @@ PathWalk::Settings settings_for(const scene::PathRequest& request) {
   settings.branches = request.branches;
   settings.largest_step = request.largest_step.value_or((high - low) / fewest_steps);
   settings.most_points = most_points;
+  settings.most_arcs = most_arcs;
   return settings;
 }
 

@@ -140,6 +140,7 @@ std::optional<PathPlace> PathStepper::corrected(PathState guess, const PathBorde
   PathBorder border{row, std::nullopt};
   if (place.is_free) border.phase = equations_.phase_row(guess);
   const double tolerance = newton == Newton::tight ? tight_tolerance : equations_.newton_tolerance();
+  arcs_solved_ += equations_.rod().arc_count();
   const auto linear = equations_.correct(guess, border, tolerance);
   if (!linear) return std::nullopt;
   place.state = std::move(guess);

@@ -104,6 +104,10 @@ void PathWalk::follow(PathPlace place, int branch, int multiplicity) {
 // A step of length_ or less, on a mesh that is fine enough for it.
 std::optional<PathPlace> PathWalk::take_step(PathPlace& from) {
   for (;; length_ /= 2) {
+    if (stepper_.arcs_solved() > settings_.most_arcs) {
+      end(PathStatus::work_limit, std::to_string(stepper_.arcs_solved()) + " arcs solved");
+      return std::nullopt;
+    }
     if (length_ < smallest_length) {
       std::ostringstream message;
       message << (stepper_.tendon_collapsed() ? "a tendon's path has no length somewhere, at"

@@ -60,7 +60,7 @@ std::string picture(const std::vector<Unanswered>& scenes) {
   }
   const double most = *std::max_element(height.begin(), height.end());
   Svg svg(640, 420, "At which share of its load does a rod snap?", "A histogram of limit points.",
-          "limit points of 20 000 random scenes");
+          "limit points of random scenes");
   Panel panel(svg, {80, 66}, 500, 290, {"load factor", 0, 1, false}, {"scenes", 0, 1.1 * std::max(most, 1.0), false});
   panel.frame();
   for (int i = 0; i < bins; ++i) {
