@@ -90,8 +90,8 @@ const std::vector<PathCase>& path_cases() {
        {}},
       {"coil",
        "Coil pulled straight",
-       "Two turns of wire in a plane, pulled by the tip: they twist out of the plane to unwind, until the planar shape "
-       "with one loop is left.",
+       "Two turns of wire in a plane, pulled by the tip: they twist out of the plane to unwind, and come "
+       "back into it without a loop.",
        10,
        {}},
       {"finger",
