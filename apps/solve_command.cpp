@@ -1,12 +1,12 @@
 #include "apps/solve_command.h"
 
 #include "apps/derivatives.h"
+#include "apps/shape_chart.h"
 #include "scene/equilibrium_file.h"
 #include "scene/scene_file.h"
 #include "studies/compare/stopwatch.h"
 #include "studies/report/chart.h"
 #include "studies/report/output_file.h"
-#include "studies/report/shape_chart.h"
 
 #include <fmt/format.h>
 
@@ -20,13 +20,13 @@ namespace {
 
 // One view where the rod stays in the x-y plane, three where it does not.
 std::string picture(const scene::Scene& scene, const scene::Equilibrium& result, const std::string& method) {
-  using namespace studies;
   const bool planar = std::all_of(result.stations.begin(), result.stations.end(), [](const scene::Station& station) {
     return std::abs(station.X_BS.position_B_mm[2]) < 1e-12 * (1 + station.s_mm);
   });
   const std::vector<View> views = planar ? std::vector<View>{{0, 1}} : std::vector<View>{{0, 1}, {0, 2}, {1, 2}};
-  Centreline unloaded{"", {Eigen::Vector3d::Zero(), {scene::length_mm(scene), 0, 0}}, colour::grey, "4 3", false};
-  return shape_chart({unloaded, centreline(result, method, colour::blue)}, views, scene.title);
+  Centreline unloaded{
+      "", {Eigen::Vector3d::Zero(), {scene::length_mm(scene), 0, 0}}, studies::colour::grey, "4 3", false};
+  return shape_chart({unloaded, centreline(result, method, studies::colour::blue)}, views, scene.title);
 }
 
 std::string not_positive(const std::string& text) {

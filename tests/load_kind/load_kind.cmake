@@ -5,7 +5,7 @@
 # -DFOLDER=<scratch> -DCOMPILER=<c++> -DEIGEN=<include folder>.
 set(kinds "Force|Moment|DistributedForce|Gravity|Tendon")
 set(accessor studies/scenes/cases.h)
-set(own_files "^studies/(benchmarks|segmentation|stream|study2|torsion)/")
+set(own_files "^studies/(benchmarks|paths|segmentation|stream|study2|torsion)/")
 set(houses scene fam fem_reference exact_reference studies apps)
 
 # The header with a sixth kind.

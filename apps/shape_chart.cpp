@@ -1,11 +1,13 @@
-#include "studies/report/shape_chart.h"
+#include "apps/shape_chart.h"
 
 #include "studies/report/chart.h"
 
 #include <algorithm>
 
-namespace studies {
+namespace apps {
 namespace {
+
+using studies::Axis, studies::Panel, studies::Point, studies::Svg;
 
 Axis axis_over(const std::vector<Centreline>& lines, int component) {
   const char* labels[] = {"x, mm", "y, mm", "z, mm"};
@@ -39,7 +41,7 @@ std::string shape_chart(const std::vector<Centreline>& lines, const std::vector<
   for (std::size_t v = 0; v < views.size(); ++v) {
     Axis x = axis_over(lines, views[v].right);
     Axis y = axis_over(lines, views[v].up);
-    equal_scale(x, y, size, size);
+    studies::equal_scale(x, y, size, size);
     Panel panel(svg, {left + static_cast<double>(v) * (size + gap), top}, size, size, x, y);
     panel.frame();
     for (const Centreline& line : lines) {
@@ -55,4 +57,4 @@ std::string shape_chart(const std::vector<Centreline>& lines, const std::vector<
   return svg.str();
 }
 
-}  // namespace studies
+}  // namespace apps

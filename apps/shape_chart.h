@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace studies {
+namespace apps {
 
 // A centreline to draw; positions in mm, base frame, clamp to tip.
 struct Centreline {
@@ -28,4 +28,4 @@ struct View {
 std::string shape_chart(const std::vector<Centreline>& lines, const std::vector<View>& views, const std::string& title,
                         const std::string& subtitle = "");
 
-}  // namespace studies
+}  // namespace apps
