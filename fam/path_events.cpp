@@ -20,7 +20,7 @@ constexpr double is_zero = 1e-3;  // of a test's larger value at the ends of the
 // seen 3 times as far apart as places (heavy curl).
 constexpr double closed_to = 1e-5, inaccuracies_apart = 10;
 constexpr double crossing_apart = 0.02;  // of a step, chosen: with a tenth of it round-off is as large as the error
-constexpr double together = 0.01;        // of a step: a fold and a branch point that are one; chosen, not measured
+constexpr double one_crossing = 0.01;    // of a step: a fold and a branch point that are one; chosen, not measured
 
 double sign_of(const PathPlace& place) {
   return place.negative ? -1 : 1;
@@ -56,7 +56,7 @@ std::optional<std::vector<PathWalk::Event>> PathWalk::events_between(const PathP
         if (change > explained && steps_ > 0) events.push_back({length_ / 2, from, Kind::branch, std::min(2, change)});
       }
     }
-    if (events.size() == 2 && std::abs(events[0].length - events[1].length) < together * length_) {
+    if (events.size() == 2 && std::abs(events[0].length - events[1].length) < one_crossing * length_) {
       events = {crossing(from, events[1])};
       if (is_first_again(events.front().place)) events.front().end = scene::PathStatus::closed;
     }

@@ -13,7 +13,7 @@ using scene::PathStatus;
 constexpr double first_length = 0.02;
 constexpr double longest_length = 0.35;
 constexpr double smallest_length = 1e-10;
-constexpr double largest_surprise_rad = 0.1, wanted_surprise_rad = 0.02;
+constexpr double largest_step_surprise_rad = 0.1, wanted_surprise_rad = 0.02;
 constexpr double least_alignment = 0.92;  // of the tangents at its ends
 
 }  // namespace
@@ -131,7 +131,8 @@ std::optional<PathPlace> PathWalk::take_step(PathPlace& from) {
 }
 
 bool PathWalk::is_fit(const PathPlace& from, const PathPlace& next) const {
-  return next.surprise_rad <= largest_surprise_rad && stepper_.inner(from.tangent, next.tangent) >= least_alignment &&
+  return next.surprise_rad <= largest_step_surprise_rad &&
+         stepper_.inner(from.tangent, next.tangent) >= least_alignment &&
          std::abs(next.state.parameter - from.state.parameter) <= settings_.largest_step;
 }
 
