@@ -10,7 +10,7 @@ namespace {
 
 using scene::PathPoint;
 
-constexpr double size = 420, left = 76, top = 66, gap = 110;
+constexpr double panel_size = 420, panel_left = 76, panel_top = 66, panel_gap = 110;
 const std::array<std::string, 3> shape_colours{colour::blue, colour::green, colour::sky}, shape_names{"A", "B", "C"};
 
 // How far the tip is from where it is at the path's first point.
@@ -80,8 +80,8 @@ void draw_shapes(Svg& svg, const std::array<std::vector<Eigen::Vector3d>, 3>& sh
   };
   const std::size_t up = width(2) > width(1) ? 2 : 1;
   Axis x = axis_over("x, mm", along[0]), y = axis_over(up == 2 ? "z, mm" : "y, mm", along[up]);
-  equal_scale(x, y, size, size);
-  Panel panel(svg, {left + size + gap, top}, size, size, x, y);
+  equal_scale(x, y, panel_size, panel_size);
+  Panel panel(svg, {panel_left + panel_size + panel_gap, panel_top}, panel_size, panel_size, x, y);
   panel.frame();
   for (std::size_t k = 0; k < 3; ++k) {
     std::vector<Point> line;
@@ -102,14 +102,15 @@ std::string legend(const std::vector<PathMarks>& others) {
 
 std::string path_chart(const scene::Path& path, const CentrelineOf& centreline_mm, const std::string& title,
                        const std::string& parameter, const std::vector<PathMarks>& others) {
-  Svg svg(left + 2 * (size + gap) - 20, top + size + 60, title,
+  Svg svg(panel_left + 2 * (panel_size + panel_gap) - 20, panel_top + panel_size + 60, title,
           "The rod's equilibria: the parameter against how far the tip has moved, and three shapes.", legend(others));
   std::vector<double> parameters, ways;
   for (const PathPoint& point : path.points) {
     parameters.push_back(point_of(path, point).x);
     ways.push_back(point_of(path, point).y);
   }
-  Panel curve(svg, {left, top}, size, size, axis_over(parameter, parameters), axis_over("way of the tip, mm", ways));
+  Panel curve(svg, {panel_left, panel_top}, panel_size, panel_size, axis_over(parameter, parameters),
+              axis_over("way of the tip, mm", ways));
   curve.frame();
   for (const PathMarks& other : others) {
     std::vector<Point> marks;
