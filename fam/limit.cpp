@@ -15,19 +15,18 @@ using scene::Status;
 using Kind = scene::PathPoint::Kind;
 
 // All chosen, not measured.
-constexpr double start_share = 0.95;                      // of the load reached, where the path starts
 constexpr double lowest_factor = -1, highest_factor = 2;  // how far the path may stray
 constexpr double longest_load_step = 0.05;
-constexpr double limit_tolerance = 1e-6;  // of the length: a fold's load is then right to six digits
+constexpr double way_tolerance = 1e-4;    // of the length, on the way to a fold
+constexpr double limit_tolerance = 1e-6;  // of a fold's load, at most: six digits
 constexpr int most_limit_points = 3000;
-constexpr long long most_limit_arcs = 300'000;  // solved: some seconds
+constexpr long long most_limit_arcs = 2'000'000;  // solved: ten seconds, a minute with tendons
 
-PathWalk::Settings settings_for(const scene::Scene& scene, double reached) {
+PathWalk::Settings settings_for(const scene::Scene& scene) {
   const bool pulls = std::any_of(scene.loads.begin(), scene.loads.end(),
                                  [](const scene::Load& load) { return scene::tendon_of(load) != nullptr; });
   PathWalk::Settings settings;
-  settings.range = {pulls ? 0 : lowest_factor, highest_factor, 1};
-  settings.from = start_share * reached;
+  settings.range = {pulls ? 0 : lowest_factor, highest_factor, 1, true, limit_tolerance};
   settings.to = highest_factor;
   settings.stops = {1};
   settings.largest_step = longest_load_step;
@@ -38,7 +37,7 @@ PathWalk::Settings settings_for(const scene::Scene& scene, double reached) {
 
 // The equilibrium under the full loads that a place of the path is near.
 std::optional<Equilibrium> equilibrium_at(const scene::Scene& scene, const Options& options, PathStepper& stepper,
-                                          const SavedPlace& saved) {
+                                          const SavedPlace& saved, bool after_snap) {
   const PathPlace place = stepper.restored(saved);
   stepper.equations().set_parameter(1);
   const std::vector<SectionState<3>> states = stepper.equations().states(place.state);
@@ -52,49 +51,64 @@ std::optional<Equilibrium> equilibrium_at(const scene::Scene& scene, const Optio
   if (!run.converged()) return std::nullopt;
   std::optional<bool> stable;
   if (place.index) stable = *place.index == 0;
-  Equilibrium result = success(problem, run, place.accuracy.error_mm, stable, "after the rod has snapped");
-  result.model.emplace_back("after_snap", true);
+  Equilibrium result = success(problem, run, place.accuracy.error_mm, stable,
+                               after_snap ? "after the rod has snapped" : "its path followed by arc length");
+  if (after_snap) result.model.emplace_back("after_snap", true);
+  return result;
+}
+
+Equilibrium stopped(Status status, const std::string& what, double load_factor) {
+  Equilibrium result;
+  result.status = status;
+  std::ostringstream message;
+  message.precision(3);
+  message << what << " at " << 100 * load_factor << " % of the load";
+  result.message = message.str();
   return result;
 }
 
 Equilibrium limit_at(double load_factor) {
-  Equilibrium result;
-  result.status = Status::limit_point;
+  Equilibrium result = stopped(Status::limit_point, "snaps", load_factor);
   result.limit = scene::Limit{load_factor, scene::name(Kind::fold)};
-  std::ostringstream message;
-  message.precision(3);
-  message << "snaps at " << 100 * load_factor << " % of the load";
-  result.message = message.str();
   return result;
 }
 
 }  // namespace
 
-std::optional<Equilibrium> beyond_growth(const scene::Scene& scene, const Options& options, double reached) {
+std::optional<Equilibrium> beyond_growth(const scene::Scene& scene, const Options& options) {
   scene::PathRequest request;
   request.scene = scene;
-  const PathWalk::Settings found = settings_for(scene, reached);
+  const PathWalk::Settings found = settings_for(scene);
   request.from = found.from;
   request.to = found.to;
   Options on_path = options;
-  const double tolerance_mm = limit_tolerance * scene::length_mm(scene);
+  const double tolerance_mm = way_tolerance * scene::length_mm(scene);
   on_path.tolerance_mm = options.tolerance_mm > 0 ? std::min(options.tolerance_mm, tolerance_mm) : tolerance_mm;
   PathWalk::Settings settings = found;
   std::optional<double> fold;
   bool arrived = false;
+  const PathStepper* stepper = nullptr;
   settings.ends_at = [&](const PathPlace& place, Kind kind) {
+    // Of a rod without symmetry: the walk has left the branch beside a near one.
+    if (kind == Kind::branch && !place.index && stepper->equations().held() == scene::Symmetry::none) return true;
     if (kind == Kind::fold && !fold) fold = place.state.parameter;
     if (kind == Kind::fold) return !options.after_snap;
     arrived = place.state.parameter == 1 && (!fold || place.index.value_or(0) == 0);
     return arrived;
   };
   PathWalk walk(request, on_path, settings);
+  stepper = &walk.stepper();
   walk.run();
-  if (!fold) return std::nullopt;
   if (arrived) {
-    if (auto landed = equilibrium_at(scene, options, walk.stepper(), walk.places().back())) return landed;
+    if (auto there = equilibrium_at(scene, options, walk.stepper(), walk.places().back(), fold.has_value()))
+      return there;
   }
-  return limit_at(*fold);
+  if (fold) return limit_at(*fold);
+  if (walk.tendon_collapsed()) {
+    const double reached = walk.path().points.back().parameter;
+    return stopped(Status::tendon_collapsed, "a tendon's path has no length somewhere, |v + u x r| = 0,", reached);
+  }
+  return std::nullopt;
 }
 
 }  // namespace fam

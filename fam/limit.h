@@ -7,9 +7,9 @@
 
 namespace fam {
 
-// After a failed growth that reached a share of the load: limit_point with the fold, or with Options::after_snap the
-// next equilibrium under the full load; the path is followed from a little before. Empty: there is no fold on the way,
-// or the path could not be followed.
-std::optional<scene::Equilibrium> beyond_growth(const scene::Scene& scene, const Options& options, double reached);
+// After a growth that failed on the way, the path from no load: limit_point with its first fold, or with
+// Options::after_snap the next equilibrium under the full load; where it has no fold, the equilibrium that it leads to,
+// or tendon_collapsed. Empty: the path could not be followed so far.
+std::optional<scene::Equilibrium> beyond_growth(const scene::Scene& scene, const Options& options);
 
 }  // namespace fam

@@ -5,10 +5,10 @@
 namespace fam {
 namespace {
 
-constexpr int most_points = 20'000;  // of a path with its branches; chosen, not measured
+constexpr int most_points = 20'000;           // of a path with its branches; chosen, not measured
 constexpr long long most_arcs = 100'000'000;  // minutes; chosen, not measured
-constexpr int fewest_places = 60;    // of a centreline
-constexpr int fewest_steps = 20;     // through the range, where the largest is not given
+constexpr int fewest_places = 60;             // of a centreline
+constexpr int fewest_steps = 20;              // through the range, where the largest is not given
 
 PathWalk::Settings settings_for(const scene::PathRequest& request) {
   PathWalk::Settings settings;

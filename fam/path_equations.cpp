@@ -283,7 +283,7 @@ std::optional<PathEquations::Linear> PathEquations::correct(PathState& state, co
     if (!std::isfinite(size) || turn > largest_newton_turn_rad) return std::nullopt;
     if (iteration == 0) result.first_step_rad = turn;
     state = moved(state, step);
-    const bool stagnates = iteration > 2 && size > 0.5 * last && size < 1e-7;
+    const bool stagnates = iteration > 2 && size > 0.5 * last && size < 1e-6;
     if (newton_curvature * size * size <= tolerance || stagnates) {
       right_ = Eigen::VectorXd::Zero(system_.size());
       right_[path_row_] = 1;
@@ -292,11 +292,13 @@ std::optional<PathEquations::Linear> PathEquations::correct(PathState& state, co
       const double length = std::sqrt(inner(result.tangent, result.tangent));
       if (!std::isfinite(length) || !(length > 0)) return std::nullopt;
       result.tangent /= length;
-      result.log_determinant = system_.log_determinant() + std::log(length);
-      if (border.phase) result.log_determinant -= std::log(border.phase->turn.squaredNorm());
-      result.negative = system_.determinant_is_negative() != odd_borders_;
+      scene::Determinant& determinant = result.determinant;
+      determinant.log_size = system_.log_determinant() + std::log(length);
+      if (border.phase) determinant.log_size -= std::log(border.phase->turn.squaredNorm());
+      determinant.negative = system_.determinant_is_negative() != odd_borders_;
       set_parameter(state.parameter);
       shooting_.set_nodes(state.nodes);
+      determinant.log_growth = shooting_.log_growth();
       return result;
     }
     last = size;

@@ -104,10 +104,9 @@ class PathEquations {
 
   // Newton's method from a guess, across the border. Empty: it did not converge. The loads are then the state's.
   struct Linear {
-    Change tangent;              // along the border's direction, of size 1
-    double log_determinant = 0;  // of derivatives and tangent: no matter which border
-    bool negative = false;
-    double first_step_rad = 0;  // the largest turn in it
+    Change tangent;                  // along the border's direction, of size 1
+    scene::Determinant determinant;  // of derivatives and tangent: no matter which border
+    double first_step_rad = 0;       // the largest turn in it
   };
   std::optional<Linear> correct(PathState& state, const PathBorder& border, double tolerance);
   // Of the derivatives at the state corrected last, which is a branch point: a change that they do not see, of those

@@ -23,7 +23,7 @@ constexpr double crossing_apart = 0.02;  // of a step, chosen: with a tenth of i
 constexpr double one_crossing = 0.01;    // of a step: a fold and a branch point that are one; chosen, not measured
 
 double sign_of(const PathPlace& place) {
-  return place.negative ? -1 : 1;
+  return place.determinant.negative ? -1 : 1;
 }
 
 // Of the turn across, over that at another place.
@@ -33,7 +33,7 @@ double cross_ratio(const PathPlace& place, const PathPlace& other) {
 }
 
 double determinant_ratio(const PathPlace& place, const PathPlace& other) {
-  const double size = std::exp(std::clamp(place.log_determinant - other.log_determinant, -700.0, 700.0));
+  const double size = std::exp(std::clamp(place.determinant.log_size - other.determinant.log_size, -700.0, 700.0));
   return sign_of(place) * size;
 }
 
@@ -115,7 +115,7 @@ void PathWalk::add_turning_points(const PathPlace& from, const PathPlace& next, 
   if (from.cross && next.cross) {
     if (cross_ratio(next, from) < 0)
       add_located(Kind::branch, 2, [&](const PathPlace& p) { return cross_ratio(p, from); });
-  } else if (from.negative != next.negative) {
+  } else if (from.determinant.negative != next.determinant.negative) {
     add_located(Kind::branch, 1, [&](const PathPlace& p) { return determinant_ratio(p, from) * sign_of(from); });
   }
 }
@@ -170,7 +170,10 @@ void PathWalk::add_closure(const PathPlace& from, const PathPlace& next, std::ve
   const Eigen::Matrix<double, 13, 1> before = away_from_start(from), after = away_from_start(next);
   const Eigen::Matrix<double, 13, 1> way = after - before;
   if (!(before.dot(way) < 0 && after.dot(way) >= 0) || before.norm() > 2 * way.norm()) return;
-  const auto event = located(from, next, Kind::end, [&](const PathPlace& p) { return away_from_start(p).dot(way); });
+  const auto event = located(from, next, Kind::end, [&](PathPlace p) {
+    stepper_.judge(p);  // for its tip
+    return away_from_start(p).dot(way);
+  });
   if (!event || !is_first_again(event->place)) return;
   events.push_back(*event);
   events.back().end = PathStatus::closed;
@@ -190,11 +193,16 @@ std::optional<PathWalk::Event> PathWalk::located(const PathPlace& from, const Pa
     double ahead = std::clamp(share, 0.0, 1.0) * length;
     const double size = std::clamp(std::abs(low.state.parameter) / stepper_.unit(), 1e-4, 1.0);
     const PathChange curvature = (high.tangent - low.tangent) / length;
-    std::optional<PathPlace> at = stepper_.step(low, ahead, curvature, PathStepper::Newton::tight);
-    if (!at) at = stepper_.step(low, ahead = length / 2, curvature, PathStepper::Newton::tight);
+    std::optional<PathPlace> at = stepper_.step(low, ahead, curvature, PathStepper::Newton::trial);
+    if (!at) at = stepper_.step(low, ahead = length / 2, curvature, PathStepper::Newton::trial);
     if (!at) return std::nullopt;
     const double f = test(*at);
-    if (f == 0 || std::min(ahead, length - ahead) < located_to_ * size) return Event{done + ahead, *at, kind, 0};
+    const double near = located_to_ * size,
+                 slope = std::min(std::abs(f - f_low) / ahead, std::abs(f - f_high) / (length - ahead));
+    if (std::abs(f) <= slope * near || std::min(ahead, length - ahead) < near) {
+      if (!stepper_.judge(*at)) return std::nullopt;
+      return Event{done + ahead, *at, kind, 0};
+    }
     if (f * f_low > 0) {
       low = *at;
       f_low = f;

@@ -16,7 +16,8 @@ namespace {
 using scene::Symmetry;
 
 constexpr double tight_tolerance = 3e-21;  // of Newton's method where a point is located: its last step is below 1e-11
-constexpr double held_to = 1e-9;           // a state lies in the subspace of a symmetry
+constexpr double watched_tolerance = 1e-15;   // a looser one lets a rod stray that all but turns about its axis freely
+constexpr double held_to = 1e-9;              // a state lies in the subspace of a symmetry
 constexpr double longest_path_swing_rad = 2;  // of an arc, where arcs are not given; chosen, not measured
 constexpr double mesh_reach = 0.1;            // loads that segments are cut for, about the present one, in units
 constexpr double mesh_share = 0.5;            // the same, of the parameter itself
@@ -32,7 +33,8 @@ PathEquations::Settings settings_for(const scene::PathRequest& request, const Op
   const bool has_tolerance = options.arcs == 0 || options.tolerance_mm > 0;
   PathEquations::Settings result;
   result.law = chosen(options.law);
-  if (has_tolerance)
+  if (settings.is_watched) result.newton_tolerance = watched_tolerance;
+  else if (has_tolerance)
     result.newton_tolerance = std::clamp(1e-3 * tolerance_mm / length_mm, tightest_newton_tolerance, 1e-6);
   result.unit = settings.unit;
   result.lowest = settings.lowest;
@@ -139,24 +141,26 @@ std::optional<PathPlace> PathStepper::corrected(PathState guess, const PathBorde
   place.is_free = is_round_ && equations_.held() != Symmetry::axis;
   PathBorder border{row, std::nullopt};
   if (place.is_free) border.phase = equations_.phase_row(guess);
-  const double tolerance = newton == Newton::tight ? tight_tolerance : equations_.newton_tolerance();
+  const double tolerance = newton == Newton::usual ? equations_.newton_tolerance() : tight_tolerance;
   arcs_solved_ += equations_.rod().arc_count();
   const auto linear = equations_.correct(guess, border, tolerance);
   if (!linear) return std::nullopt;
   place.state = std::move(guess);
   place.tangent = linear->tangent;
-  place.log_determinant = linear->log_determinant;
-  place.negative = linear->negative;
+  place.determinant = linear->determinant;
   place.surprise_rad = linear->first_step_rad;
+  if (is_round_ && !place.is_free) place.cross = cross_turn(equations_.rod(), equations_.segments(), place.state.nodes);
+  if (newton != Newton::trial && !judge(place)) return std::nullopt;
+  return place;
+}
+
+bool PathStepper::judge(PathPlace& place) {
   const LoadedRod<3>& rod = equations_.rod();
-  const auto& nodes = place.state.nodes;
   if (scene::is_conservative(rod.way().to))
-    place.index = stability(rod, equations_.segments(), nodes, place.is_free).conjugate_points;
-  if (is_round_ && !place.is_free) place.cross = cross_turn(rod, equations_.segments(), nodes);
+    place.index = stability(rod, equations_.segments(), place.state.nodes, place.is_free).conjugate_points;
   place.accuracy = equations_.accuracy(place.state);
   place.tip_position_B_mm = place.accuracy.tip_position_B_mm;
-  if (!place.tip_position_B_mm.allFinite()) return std::nullopt;
-  return place;
+  return place.tip_position_B_mm.allFinite();
 }
 
 std::optional<PathPlace> PathStepper::step(const PathPlace& from, double length, const PathChange& curvature,
@@ -182,7 +186,7 @@ bool PathStepper::may_double_for_critical_points() const {
 
 double PathStepper::parameter_tolerance(double parameter) const {
   constexpr double finest = 1e-10, least_share = 1e-2;  // of the range, near zero
-  const double share = std::max(tolerance_mm_ / equations_.length_mm(), finest);
+  const double share = std::clamp(tolerance_mm_ / equations_.length_mm(), finest, settings_.critical_tolerance);
   return share * std::max(std::abs(parameter), least_share * settings_.unit);
 }
 
@@ -248,7 +252,7 @@ PathPlace PathStepper::restored(const SavedPlace& saved) {
 
 void PathStepper::reverse(PathPlace& place) const {
   place.tangent = -place.tangent;
-  place.negative = !place.negative;  // the tangent is a row of that determinant
+  place.determinant.negative = !place.determinant.negative;  // the tangent is a row of that determinant
 }
 
 PathPlace PathStepper::fork(const PathPlace& place, int multiplicity) {

@@ -13,9 +13,8 @@ using PathChange = PathEquations::Change;
 // A solution on a path.
 struct PathPlace {
   PathState state;
-  PathChange tangent;          // the way that the path goes, of size 1 (PathEquations::inner)
-  double log_determinant = 0;  // PathEquations::Linear
-  bool negative = false;
+  PathChange tangent;              // the way that the path goes, of size 1 (PathEquations::inner)
+  scene::Determinant determinant;  // PathEquations::Linear
   std::optional<int> index;        // where the loads have an energy
   std::optional<CrossTurn> cross;  // on the axis of a rod that no direction across is told apart of
   bool is_free = false;            // it may turn about its axis at no cost
@@ -40,6 +39,8 @@ class PathStepper {
   struct Settings {
     double lowest = 0, highest = 1;  // values of the parameter that may be asked for
     double unit = 1;                 // of it
+    bool is_watched = false;         // short steps, so as to stay on a branch that only determinants tell
+    double critical_tolerance = 1;   // relative, of critical values; or as places have, if that is finer
   };
   PathStepper(const scene::PathRequest& request, const Options& options, const Settings& settings);
 
@@ -53,10 +54,12 @@ class PathStepper {
   double tolerance_mm() const { return tolerance_mm_; }
   double inner(const PathChange& a, const PathChange& b) const { return equations_.inner(a, b); }
 
-  enum class Newton { usual, tight };
+  enum class Newton { usual, tight, trial };  // a trial is as tight, and not judged
   // Along the tangent and half the curvature times the length squared. Empty: Newton's method did not converge.
   std::optional<PathPlace> step(const PathPlace& from, double length, const PathChange& curvature,
                                 Newton newton = Newton::usual);
+  // Tells index, accuracy and tip of the place found last. False: its shape is not finite.
+  bool judge(PathPlace& place);
   // The solution with exactly this parameter, near one.
   std::optional<PathPlace> at(const PathPlace& near, double parameter);
 
@@ -83,6 +86,7 @@ class PathStepper {
   void reverse(PathPlace& place) const;
 
   PathEquations& equations() { return equations_; }
+  const PathEquations& equations() const { return equations_; }
   bool tendon_collapsed() const { return equations_.tendon_collapsed(); }
   bool is_round() const { return is_round_; }
 

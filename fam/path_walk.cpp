@@ -13,8 +13,13 @@ using scene::PathStatus;
 constexpr double first_length = 0.02;
 constexpr double longest_length = 0.35;
 constexpr double smallest_length = 1e-10;
+constexpr double no_struggle = 1e-5;  // a step so long tells that a tendon without length before it was a guess's alone
 constexpr double largest_step_surprise_rad = 0.1, wanted_surprise_rad = 0.02;
 constexpr double least_alignment = 0.92;  // of the tangents at its ends
+// Where the determinant falls a step goes no farther than most of the way to its zero, so that no two critical points
+// lie in one, as they do beside each other where a rod buckles that is next to round and straight; down to here.
+constexpr double unwatched_length = 1e-9;
+constexpr double first_look = 1e-4;  // of a step, where nothing is known of the determinant before
 
 }  // namespace
 
@@ -66,20 +71,24 @@ void PathWalk::run_from(const SavedPlace& start, bool back) {
 void PathWalk::follow(PathPlace place, int branch, int multiplicity) {
   ended_ = false;
   first_ = place;
-  curvature_ = stepper_.equations().zero_change();
+  start_anew(place);
   length_ = first_length;
   steps_ = 0;
   add(place, Kind::start, branch, multiplicity);
   while (!ended_) {
     if (!stepper_.is_within_mesh(place) && !place.is_fork) {
       if (!stepper_.recentre(place)) return end(PathStatus::step_too_small, "the segments could not be cut anew");
-      curvature_ = stepper_.equations().zero_change();
+      start_anew(place);
     }
+    const double wanted = length_;
     const std::optional<PathPlace> next = take_step(place);
     if (!next) return;
     const double length = length_;
     std::optional<std::vector<Event>> events = events_between(place, *next);
-    if (events && !hold_on_more_arcs(place, *events)) continue;
+    if (events && !hold_on_more_arcs(place, *events)) {
+      start_anew(place);
+      continue;
+    }
     if (!events) {
       length_ /= 2;
       if (length_ >= smallest_length) continue;
@@ -97,8 +106,33 @@ void PathWalk::follow(PathPlace place, int branch, int multiplicity) {
     length_ = std::min(longest_length, length * std::clamp(std::cbrt(wanted_surprise_rad / surprise), 0.5, 2.0));
     place = *next;
     place.is_fork = false;
+    travelled_ += length;
+    if (length == first_look && wanted > length) length_ = wanted;
+    watch(place);
     ++steps_;
   }
+}
+
+// On another mesh: nothing is known of the path before.
+void PathWalk::start_anew(const PathPlace& place) {
+  curvature_ = stepper_.equations().zero_change();
+  watch_ = {};
+  watched_places_ = 0;
+  if (!place.is_fork) watch(place);
+}
+
+void PathWalk::watch(const PathPlace& place) {
+  watch_.keep(travelled_, place.determinant);
+  ++watched_places_;
+}
+
+// Where a symmetry holds the rod nothing leads it astray, and the number of unstable directions tells where it is
+// known.
+double PathWalk::watched_length(const PathPlace& from) {
+  if (!settings_.range.is_watched || from.index || stepper_.equations().held() != scene::Symmetry::none)
+    return longest_length;
+  if (watched_places_ == 1) return first_look;
+  return std::max(watch_.longest_step(travelled_), unwatched_length);
 }
 
 // A step of length_ or less, on a mesh that is fine enough for it.
@@ -110,23 +144,26 @@ std::optional<PathPlace> PathWalk::take_step(PathPlace& from) {
     }
     if (length_ < smallest_length) {
       std::ostringstream message;
-      message << (stepper_.tendon_collapsed() ? "a tendon's path has no length somewhere, at"
-                                              : "steps fell below the smallest at")
+      message << (tendon_collapsed_ ? "a tendon's path has no length somewhere, at"
+                                    : "steps fell below the smallest at")
               << " the parameter " << from.state.parameter;
       end(PathStatus::step_too_small, message.str());
       return std::nullopt;
     }
     const double slope = std::abs(from.slope()) * stepper_.unit();
     if (slope > 0) length_ = std::min(length_, 0.98 * settings_.largest_step / slope);
+    length_ = std::min(length_, watched_length(from));
     std::optional<PathPlace> next = stepper_.step(from, length_, curvature_);
+    if (!next) tendon_collapsed_ = tendon_collapsed_ || stepper_.tendon_collapsed();
     if (!next || !is_fit(from, *next)) continue;
-    if (!stepper_.is_small_change(from.state.parameter, next->state.parameter)) continue;
+    if (length_ > no_struggle) tendon_collapsed_ = false;
+    if (!settings_.range.is_watched && !stepper_.is_small_change(from.state.parameter, next->state.parameter)) continue;
     if (stepper_.is_accurate(*next) || from.is_fork) return next;
     if (!stepper_.refine(from)) {
       end(PathStatus::step_too_small, "no solution with twice the arcs");
       return std::nullopt;
     }
-    curvature_ = stepper_.equations().zero_change();
+    start_anew(from);
   }
 }
 

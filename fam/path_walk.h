@@ -35,6 +35,8 @@ class PathWalk {
   const scene::Path& path() const { return path_; }
   const std::vector<SavedPlace>& places() const { return places_; }  // of the path's points
   PathStepper& stepper() { return stepper_; }
+  // Whether steps fell below the smallest where a tendon's path has no length.
+  bool tendon_collapsed() const { return path_.status == scene::PathStatus::step_too_small && tendon_collapsed_; }
 
  private:
   using Kind = scene::PathPoint::Kind;
@@ -52,6 +54,9 @@ class PathWalk {
   using Test = std::function<double(const PathPlace&)>;
 
   void follow(PathPlace start, int branch, int multiplicity = 0);
+  void start_anew(const PathPlace& place);
+  void watch(const PathPlace& place);
+  double watched_length(const PathPlace& from);
   std::optional<PathPlace> take_step(PathPlace& from);
   bool is_fit(const PathPlace& from, const PathPlace& next) const;
   std::optional<std::vector<Event>> events_between(const PathPlace& from, const PathPlace& next);
@@ -83,7 +88,11 @@ class PathWalk {
   static constexpr double located_to = 1e-12;  // of the parameter
   double located_to_ = located_to;
   double length_ = 0;
-  int steps_ = 0;  // on this branch
+  double travelled_ = 0;  // on this branch, as are the rest
+  scene::BranchWatch watch_;
+  int watched_places_ = 0;
+  int steps_ = 0;
+  bool tendon_collapsed_ = false;  // in a step that failed, since one that did not struggle
   bool ended_ = false;
 };
 

@@ -83,6 +83,8 @@ class Shooting {
   // Of the equations' derivatives, after newton(): as that left them, or at the solution.
   scene::Determinant determinant() const;
   scene::Determinant exact_determinant();
+  // scene::Determinant::log_growth, of the nodes as they are.
+  double log_growth() const;
 
   // Clamp to tip: the segments, and the state at the distal end of each.
   const std::vector<ArcRange>& segments() const { return segments_; }
@@ -131,7 +133,6 @@ class Shooting {
   static bool slopes_last(bool were_kept, double size, double last_size) {
     return size < 0.4 && (!were_kept || size < 0.5 * last_size);
   }
-  double log_growth() const;
   double apply(const Eigen::Ref<const Eigen::VectorXd>& step);
 
   LoadedRod<D> rod_;

@@ -48,9 +48,10 @@ namespace {
 // Where a load could not grow on, its path tells why.
 Equilibrium after_failure(const Problem& problem, const Run& run) {
   const double reached = run.engine.load_factor();
-  const bool stuck = run.status == Status::load_step_too_small || run.status == Status::work_limit;
+  const bool stuck = run.status == Status::load_step_too_small || run.status == Status::work_limit ||
+                     run.status == Status::tendon_collapsed;
   if (stuck && reached > 0) {
-    if (auto result = beyond_growth(problem.scene(), problem.options(), reached)) return *result;
+    if (auto result = beyond_growth(problem.scene(), problem.options())) return *result;
   }
   return failure(run);
 }

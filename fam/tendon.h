@@ -176,9 +176,11 @@ class TendonSection {
   }
 
   // X - X0 - C (W - sum T B^T d) at a strain; the tangent's matrix too where asked for. False: a tendon collapsed.
+  // With `rounding` for the energy T sqrt(|t|^2 + rounding^2), which has no kink.
   template <class Number>
   bool residual(const Eigen::Matrix<Number, unknowns, 1>& loads, const Eigen::Matrix<Number, unknowns, 1>& x,
-                Eigen::Matrix<Number, unknowns, 1>& result, Eigen::Matrix<double, unknowns, unknowns>* matrix) const {
+                Eigen::Matrix<Number, unknowns, 1>& result, Eigen::Matrix<double, unknowns, unknowns>* matrix,
+                double rounding = 0) const {
     Eigen::Matrix<Number, unknowns, 1> rest_loads = loads;
     const BasicScrew<Number, D> strain =
         screw<Number>(x, Vector<Number, D>(rest_translation_mm_.template cast<Number>()));
@@ -186,7 +188,7 @@ class TendonSection {
       const Vector<Number, D> arm = tendons_[i].arm_mm.template cast<Number>();
       const Vector<Number, D> t = tangent<Number>(strain, arm);
       using std::sqrt;
-      const Number length = sqrt(t.dot(t));
+      const Number length = sqrt(t.dot(t) + Number(rounding * rounding));
       if (!(value_of(length) > smallest_tendon_stretch * rest_translation_mm_[0])) return false;
       const Vector<Number, D> d = t * (Number(1) / length);
       const Number tension(tendons_[i].tension_N);
@@ -200,7 +202,20 @@ class TendonSection {
     return true;
   }
 
-  // The energy's derivative along a direction where the residual is `miss`; compliances of zero do not move.
+  // Of a strain, from its rest, less a constant.
+  double energy(const Eigen::Matrix<double, unknowns, 1>& loads, const Eigen::Matrix<double, unknowns, 1>& x,
+                double rounding) const {
+    const BasicScrew<double, D> strain = screw<double>(x, rest_translation_mm_);
+    double sum = 0;
+    for (const BasicTendon<D>& tendon : tendons_)
+      sum += tendon.tension_N * std::hypot(tangent<double>(strain, tendon.arm_mm).norm(), rounding);
+    for (int i = 0; i < unknowns; ++i) {
+      const double change = x[i] - rest_[i];
+      if (compliance_[i] > 0) sum += change * (change / (2 * compliance_[i]) - loads[i]);
+    }
+    return sum;
+  }
+  // Its derivative along a direction where the residual is `miss`; compliances of zero do not move.
   double energy_slope(const Eigen::Matrix<double, unknowns, 1>& miss,
                       const Eigen::Matrix<double, unknowns, 1>& direction) const {
     double slope = 0;
@@ -210,11 +225,10 @@ class TendonSection {
     return slope;
   }
 
-  // Newton's method from the strain with straight tendons, its steps halved until the energy, which is convex, is less
-  // steep along them.
+  // The strain of least energy: from that with straight tendons, or, where a kink of the energy is in the way, by
+  // energies with the kinks rounded off less and less.
   [[gnu::noinline]] Eigen::Matrix<double, unknowns, 1> minimise(const Eigen::Matrix<double, unknowns, 1>& loads) {
     using Unknowns = Eigen::Matrix<double, unknowns, 1>;
-    constexpr int max_steps = 60;
     Unknowns x = rest_, direct = loads;
     for (const BasicTendon<D>& tendon : tendons_) {
       const Vector<double, D> e_x = Vector<double, D>::Unit(0);
@@ -228,11 +242,27 @@ class TendonSection {
       if constexpr (with_shear) scale.template tail<D>().array() += tendon.tension_N;
     }
     scale = (rest_.cwiseAbs() + compliance_.cwiseProduct(scale)).eval();
+    if (newton(loads, scale, 0, x)) return x;
+    x = rest_;
+    constexpr double least_rounding = smallest_tendon_stretch, finer = 0.1;  // the latter chosen, not measured
+    bool found = true;
+    for (double rounding = 1; found && rounding > least_rounding; rounding *= finer)
+      found = newton(loads, scale, rounding * rest_translation_mm_[0], x);
+    if (found && newton(loads, scale, 0, x)) return x;
+    collapsed_ = true;
+    return Unknowns::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+
+  // Newton's method, its steps halved until the energy, which is convex, falls along them.
+  bool newton(const Eigen::Matrix<double, unknowns, 1>& loads, const Eigen::Matrix<double, unknowns, 1>& scale,
+              double rounding, Eigen::Matrix<double, unknowns, 1>& x) const {
+    using Unknowns = Eigen::Matrix<double, unknowns, 1>;
+    constexpr int max_steps = 60;
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < max_steps; ++step) {
       Eigen::Matrix<double, unknowns, unknowns> matrix = Eigen::Matrix<double, unknowns, unknowns>::Identity();
       Unknowns miss;
-      if (!residual<double>(loads, x, miss, &matrix)) break;
+      if (!residual<double>(loads, x, miss, &matrix, rounding)) return false;
       factorise(matrix);
       Unknowns newton = miss;
       substitute(matrix, newton);
@@ -240,21 +270,22 @@ class TendonSection {
       for (int i = 0; i < unknowns; ++i) {
         if (newton[i] != 0) size = std::max(size, std::abs(newton[i]) / scale[i]);
       }
-      if (!newton.allFinite() || !std::isfinite(size)) break;
+      if (!newton.allFinite() || !std::isfinite(size)) return false;
       // What the next step would be at most, as the last two tell; or round-off.
       const double shrinkage = std::isfinite(last) ? std::min(1.0, size / last) : 1;
-      if (size * shrinkage <= 1e-16 || (size < 1e-10 && size >= last / 2)) return x - newton;
-      const double before = energy_slope(miss, newton);
+      if (size * shrinkage <= 1e-16 || (size < 1e-10 && size >= last / 2)) {
+        x -= newton;
+        return true;
+      }
       double part = 1;
-      for (Unknowns there; size > 1e-6 && part > 1e-6; part /= 2) {  // closer to the minimum whole steps converge
-        if (!residual<double>(loads, x - part * newton, there, nullptr)) continue;
-        if (std::abs(energy_slope(there, newton)) <= 0.9 * std::abs(before)) break;
+      if (size > 1e-6) {  // closer to the minimum whole steps converge
+        const double before = energy(loads, x, rounding), slope = energy_slope(miss, newton);
+        while (energy(loads, x - part * newton, rounding) > before - 1e-4 * part * slope && part > 1e-6) part /= 2;
       }
       x -= part * newton;
       last = size;
     }
-    collapsed_ = true;
-    return Unknowns::Constant(std::numeric_limits<double>::quiet_NaN());
+    return false;
   }
 
   // One more step in T, whose derivatives are those of the solution.

@@ -1,0 +1,68 @@
+// What `fam solve` says of random scenes whose growing load it loses, beside the exact reference. Origins stand beside
+// the numbers.
+#include "exact_reference/solve.h"
+#include "fam/solve.h"
+#include "studies/scenes/random_scene.h"
+#include "support.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using scene::Equilibrium;
+using scene::Status;
+
+Equilibrium solved(const scene::Scene& scene, double share_of_length) {
+  fam::Options options;
+  options.tolerance_mm = share_of_length * scene::length_mm(scene);
+  return fam::solve(scene, options);
+}
+
+// Columns next to round and straight, far beyond Euler's load: the branch on which they buckle passes straight ones
+// within 1e-8 of a turn. The exact reference, which grows loads, finds nothing next to these shares.
+TEST(Limit, OfColumnsNextToRoundAndStraight) {
+  for (const auto& [seed, share] :
+       {std::pair{101460, 0.219714}, {104216, 0.391565}, {105718, 0.830413}, {107200, 0.193577}}) {
+    SCOPED_TRACE(seed);
+    const scene::Scene column = studies::random_scene(static_cast<std::uint64_t>(seed));
+    const Equilibrium snapped = solved(column, 1e-4);
+    EXPECT_EQ(snapped.status, Status::limit_point) << snapped.message;
+    ASSERT_TRUE(snapped.limit);
+    EXPECT_NEAR(snapped.limit->load_factor / share, 1, 1e-4);
+    const Equilibrium stiffer = solved(support::stiffer(column), 1e-4);
+    if (stiffer.limit) {
+      EXPECT_GT(std::abs(stiffer.limit->load_factor / share - 1), 0.01);
+    }
+  }
+}
+
+void expect_exact_tip(const scene::Scene& scene) {
+  const Equilibrium found = solved(scene, 1e-4), exact = exact_reference::solve(scene, {});
+  ASSERT_TRUE(exact.converged()) << exact.message;
+  ASSERT_TRUE(found.converged()) << found.message;
+  const double length_mm = scene::length_mm(scene);
+  EXPECT_LT((found.tip().position_B_mm - exact.tip().position_B_mm).norm(), 1e-4 * length_mm);
+  const Equilibrium stiffer = solved(support::stiffer(scene), 1e-4);
+  if (stiffer.converged()) {
+    EXPECT_GT((stiffer.tip().position_B_mm - exact.tip().position_B_mm).norm(), 1e-3 * length_mm);
+  }
+}
+
+// Its path, followed by arc length, leads to the full load.
+TEST(Limit, IsNoneWhereThePathArrives) {
+  expect_exact_tip(studies::random_scene(40160));
+}
+
+// The energy of its sections has a kink where a tendon's path has no length, next to its minimum.
+TEST(Limit, IsNoneWhereATendonIsShort) {
+  expect_exact_tip(studies::random_scene(95800));
+}
+
+TEST(Limit, OfATendonWithoutLength) {
+  const Equilibrium collapsed = solved(studies::random_scene(94100), 1e-4);
+  EXPECT_EQ(collapsed.status, Status::tendon_collapsed);
+  EXPECT_FALSE(collapsed.limit);
+  EXPECT_NE(collapsed.message.find("|v + u x r| = 0, at 70 % of the load"), std::string::npos) << collapsed.message;
+}
+
+}  // namespace
