@@ -274,6 +274,7 @@ std::optional<PathEquations::Linear> PathEquations::correct(PathState& state, co
   double last = std::numeric_limits<double>::infinity();
   shooting_.forget_work();
   for (int iteration = 0; iteration < most_path_newton_steps; ++iteration) {
+    arcs_marched_ += rod().arc_count();
     if (!evaluate(state, border, true)) return std::nullopt;
     system_.substitute(right_);
     const Change step = projected(without_borders(right_));

@@ -132,6 +132,7 @@ class PathEquations {
   std::vector<Vector3d> centreline_mm(const PathState& state, int finer_times);
   void set_parameter(double parameter);
   void set_nodes(const PathState& state) { shooting_.set_nodes(state.nodes); }
+  long long arcs_marched() const { return arcs_marched_; }  // by all Newton steps so far
   bool tendon_collapsed() const { return rod().tendon_collapsed(); }
 
  private:
@@ -163,6 +164,7 @@ class PathEquations {
   bool odd_borders_ = false;
   Eigen::VectorXd right_;
   Change parameter_column_;
+  long long arcs_marched_ = 0;
 };
 
 }  // namespace fam

@@ -142,7 +142,6 @@ std::optional<PathPlace> PathStepper::corrected(PathState guess, const PathBorde
   PathBorder border{row, std::nullopt};
   if (place.is_free) border.phase = equations_.phase_row(guess);
   const double tolerance = newton == Newton::usual ? equations_.newton_tolerance() : tight_tolerance;
-  arcs_solved_ += equations_.rod().arc_count();
   const auto linear = equations_.correct(guess, border, tolerance);
   if (!linear) return std::nullopt;
   place.state = std::move(guess);

@@ -49,7 +49,6 @@ class PathStepper {
   const std::string& message() const { return message_; }
 
   double unit() const { return settings_.unit; }
-  long long arcs_solved() const { return arcs_solved_; }  // of all corrections so far
   double parameter(const PathPlace& place) const { return place.state.parameter; }
   double tolerance_mm() const { return tolerance_mm_; }
   double inner(const PathChange& a, const PathChange& b) const { return equations_.inner(a, b); }
@@ -106,7 +105,6 @@ class PathStepper {
   scene::Symmetry symmetry_ = scene::Symmetry::none;  // of the scene at all parameters
   bool is_round_ = false;                             // no direction across is told from another, at all parameters
   std::string message_;
-  long long arcs_solved_ = 0;
 };
 
 }  // namespace fam

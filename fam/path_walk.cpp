@@ -138,8 +138,8 @@ double PathWalk::watched_length(const PathPlace& from) {
 // A step of length_ or less, on a mesh that is fine enough for it.
 std::optional<PathPlace> PathWalk::take_step(PathPlace& from) {
   for (;; length_ /= 2) {
-    if (stepper_.arcs_solved() > settings_.most_arcs) {
-      end(PathStatus::work_limit, std::to_string(stepper_.arcs_solved()) + " arcs solved");
+    if (const long long arcs = stepper_.equations().arcs_marched(); arcs > settings_.most_arcs) {
+      end(PathStatus::work_limit, std::to_string(arcs) + " arcs marched");
       return std::nullopt;
     }
     if (length_ < smallest_length) {

@@ -24,7 +24,7 @@ class PathWalk {
     // Whether a stop, a fold or a branch point ends the walk.
     std::function<bool(const PathPlace&, scene::PathPoint::Kind)> ends_at;
     int most_points = 0;
-    long long most_arcs = 0;  // solved
+    long long most_arcs = 0;  // marched
   };
   PathWalk(const scene::PathRequest& request, const Options& options, const Settings& settings);
 

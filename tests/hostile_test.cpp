@@ -14,9 +14,9 @@ using nlohmann::json;
 
 // Of processor time, which a busy machine does not stretch; the sanitizers stretch it tenfold.
 #ifdef __SANITIZE_ADDRESS__
-constexpr double most_s = 100;
+constexpr double most_s = 500;
 #else
-constexpr double most_s = 20;
+constexpr double most_s = 60;
 #endif
 
 double processor_s_of_children() {
