@@ -1,7 +1,10 @@
 #include "apps/batch_command.h"
 
 #include "apps/values_file.h"
+#include "apps/vtu_file.h"
 #include "fam/batch.h"
+#include "fam/solve.h"
+#include "scene/load_visitor.h"
 #include "scene/scene_file.h"
 #include "studies/report/output_file.h"
 
@@ -29,6 +32,25 @@ std::string to_csv(const fam::BatchResult& result) {
   return csv;
 }
 
+// The rows that were solved, each once more for its shape.
+void write_rods(const std::string& path, const scene::Scene& scene, const Values& values,
+                const fam::BatchResult& result, const fam::Options& options) {
+  RodCollection rods(path);
+  scene::Scene row = scene;
+  for (Eigen::Index k = 0; k < values.values.rows(); ++k) {
+    const auto number = static_cast<std::size_t>(k);
+    if (result.status[number] != scene::Status::converged) continue;
+    for (std::size_t i = 0; i < values.columns.size(); ++i) {
+      const auto [load, component] = values.columns[i];
+      scene::numbers_of(row.loads[load])[static_cast<std::size_t>(component)] =
+          values.values(k, static_cast<Eigen::Index>(i));
+    }
+    const scene::Equilibrium solved = fam::solve(row, options);
+    if (solved.converged()) rods.add(number, row, solved);
+  }
+  rods.write();
+}
+
 }  // namespace
 
 CLI::App* add_batch_command(CLI::App& app, BatchArguments& arguments) {
@@ -39,6 +61,8 @@ CLI::App* add_batch_command(CLI::App& app, BatchArguments& arguments) {
                    "Values (CSV), or - for standard input: a row a rod, columns such as 0.x or 2.tension")
       ->required();
   batch->add_option("--output", arguments.output_path, "Results (CSV), a row a rod (default: -, standard output)");
+  add_file_option(batch, "--pvd", arguments.pvd_path,
+                  "Write the rods that were solved for ParaView, and this file that lists them");
   batch->add_flag_callback(
       "--no-estimate", [&arguments] { arguments.fam.estimate_error = false; }, "Leave the error estimate out");
   batch
@@ -64,6 +88,7 @@ int run_batch(const BatchArguments& arguments) {
   const std::string csv = to_csv(result);
   if (arguments.output_path == "-") fmt::print("{}", csv);
   else studies::write_file(arguments.output_path, csv);
+  if (!arguments.pvd_path.empty()) write_rods(arguments.pvd_path, scene, values, result, arguments.fam);
   const auto rods = static_cast<std::ptrdiff_t>(result.status.size());
   fmt::print(stderr, "{} rods in {:.3g} s, {:.3g} rods/s\n", rods, time_s, static_cast<double>(rods) / time_s);
   const auto solved = std::count(result.status.begin(), result.status.end(), scene::Status::converged);

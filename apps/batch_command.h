@@ -7,7 +7,7 @@ namespace apps {
 
 struct BatchArguments {
   std::string scene_path, values_path;
-  std::string output_path = "-";
+  std::string output_path = "-", pvd_path;
   fam::Options fam;
 };
 

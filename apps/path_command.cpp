@@ -1,5 +1,6 @@
 #include "apps/path_command.h"
 
+#include "apps/vtu_file.h"
 #include "fam/path.h"
 #include "scene/path_file.h"
 #include "studies/report/output_file.h"
@@ -10,11 +11,26 @@
 #include <cstdio>
 
 namespace apps {
+namespace {
+
+void write_rods(const std::string& path, const scene::PathRequest& request, const fam::Path& followed) {
+  RodCollection rods(path);
+  const std::vector<scene::PathPoint>& points = followed.points().points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    rods.add(i, scene::scene_at(request, points[i].parameter), followed.equilibrium(i),
+             {{"parameter", points[i].parameter}, {"branch", points[i].branch}});
+  }
+  rods.write();
+}
+
+}  // namespace
 
 CLI::App* add_path_command(CLI::App& app, PathArguments& arguments) {
   CLI::App* path = app.add_subcommand("path", "Follow the equilibria of a scene while one number of it changes");
   add_scene_and_options(path, arguments.path, arguments.fam, "Path file (JSON), or - for standard input");
   add_output_options(path, arguments.format, arguments.svg_path, "Write a picture of the path to this file");
+  add_file_option(path, "--pvd", arguments.pvd_path,
+                  "Write the rods of the path for ParaView, and this file that lists them");
   return path;
 }
 
@@ -29,6 +45,7 @@ int run_path(const PathArguments& arguments) {
     studies::write_file(arguments.svg_path,
                         studies::path_chart(path, centreline_mm, title, scene::name_of_parameter(request)));
   }
+  if (!arguments.pvd_path.empty() && !path.points.empty()) write_rods(arguments.pvd_path, request, followed);
   if (arguments.format == "json") fmt::print("{}", scene::to_json(path));
   else if (!path.points.empty())
     fmt::print("{}", arguments.format == "csv" ? scene::to_csv(path) : scene::to_text(request, path));

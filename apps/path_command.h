@@ -10,7 +10,7 @@ struct PathArguments {
   std::string path;  // of the file
   fam::Options fam;
   std::string format = "text";
-  std::string svg_path;
+  std::string svg_path, pvd_path;
 };
 
 CLI::App* add_path_command(CLI::App& app, PathArguments& arguments);

@@ -2,6 +2,7 @@
 
 #include "apps/derivatives.h"
 #include "apps/shape_chart.h"
+#include "apps/vtu_file.h"
 #include "scene/equilibrium_file.h"
 #include "scene/scene_file.h"
 #include "studies/compare/stopwatch.h"
@@ -54,7 +55,11 @@ void add_choice(CLI::App* command, const std::string& option, Value& target, con
 void add_output_options(CLI::App* command, std::string& format, std::string& svg_path, const std::string& picture) {
   command->add_option("--format", format, "text, json or csv (default: text)")
       ->check(CLI::IsMember({"text", "json", "csv"}));
-  command->add_option("--svg", svg_path, picture)->check(CLI::Validator(no_name, "FILE"));
+  add_file_option(command, "--svg", svg_path, picture);
+}
+
+void add_file_option(CLI::App* command, const std::string& option, std::string& path, const std::string& what) {
+  command->add_option(option, path, what)->check(CLI::Validator(no_name, "FILE"));
 }
 
 void add_scene_and_options(CLI::App* command, std::string& scene_path, fam::Options& options, const std::string& what) {
@@ -84,6 +89,7 @@ CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments) {
       {{"bend_twist", fam::TwistOrder::bend_twist}, {"twist_bend", fam::TwistOrder::twist_bend}});
   add_output_options(solve, arguments.format, arguments.svg_path,
                      "Write a picture of the deformed centreline to this file");
+  add_file_option(solve, "--vtu", arguments.vtu_path, "Write the rod to this file for ParaView (VTK's XML)");
   solve->add_flag("--derivatives", arguments.derivatives,
                   "Add the tip's derivatives by loads, sections and a wrench at the tip to --format json");
   solve->add_flag("--after-snap", options.after_snap,
@@ -93,6 +99,8 @@ CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments) {
       throw CLI::ValidationError("--derivatives", "needs --format json and the method fam");
     if (arguments.derivatives && options.law == fam::Law::published)
       throw CLI::ValidationError("--derivatives", "the law published has none");
+    if (!arguments.vtu_path.empty() && arguments.method == "elastica")
+      throw CLI::ValidationError("--vtu", "the method elastica gives the tip alone");
     if (options.after_snap && arguments.method != "fam")
       throw CLI::ValidationError("--after-snap", "needs the method fam");
     if (solve->count("--twist-order") > 0 && options.law != fam::Law::published)
@@ -119,6 +127,9 @@ int run_solve(const SolveArguments& arguments, const MethodFactory& make_method)
   const double time_us = result.converged() ? time_of(*method, scene, first_solve_s) : 0;
   if (result.converged() && !arguments.svg_path.empty()) {
     studies::write_file(arguments.svg_path, picture(scene, result, method->name()));
+  }
+  if (result.converged() && !arguments.vtu_path.empty()) {
+    studies::write_file(arguments.vtu_path, to_vtu(scene, result));
   }
   if (arguments.format == "json") {
     const std::string json = scene::to_json(result, arguments.method, time_us);

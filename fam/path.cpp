@@ -65,4 +65,14 @@ std::vector<Eigen::Vector3d> Path::centreline_mm(std::size_t point) const {
   return stepper.equations().centreline_mm(place.state, 1 + fewest_places / arcs);
 }
 
+scene::Equilibrium Path::equilibrium(std::size_t point) const {
+  PathStepper& stepper = impl_->walk.stepper();
+  const PathPlace place = stepper.restored(impl_->walk.places().at(point));
+  const double parameter = stepper.parameter(place);
+  scene::Equilibrium result = stepper.equations().equilibrium(place.state, scene::scene_at(impl_->request, parameter));
+  result.error_estimate_mm = place.accuracy.error_mm;
+  result.stable = points().points[point].stable;
+  return result;
+}
+
 }  // namespace fam

@@ -29,6 +29,8 @@ class Path {
   const scene::Path& points() const;
   // Of a point of it: places on the rod, clamp to tip.
   std::vector<Eigen::Vector3d> centreline_mm(std::size_t point) const;
+  // With stations, as fam::solve returns one; without facts of the model.
+  scene::Equilibrium equilibrium(std::size_t point) const;
 
  private:
   struct Impl;

@@ -12,6 +12,7 @@
 #include "fam/options.h"
 #include "fam/shooting.h"
 
+#include "scene/equilibrium.h"
 #include "scene/path.h"
 #include "scene/span_facts.h"
 
@@ -130,6 +131,8 @@ class PathEquations {
   // At the arcs' distal ends, without the point loads there; finer_times the arcs, for pictures.
   std::vector<SectionState<3>> states(const PathState& state);
   std::vector<Vector3d> centreline_mm(const PathState& state, int finer_times);
+  // Stations, tip angle and tendons' shortening of the scene at the state's parameter.
+  scene::Equilibrium equilibrium(const PathState& state, const scene::Scene& scene);
   void set_parameter(double parameter);
   void set_nodes(const PathState& state) { shooting_.set_nodes(state.nodes); }
   long long arcs_marched() const { return arcs_marched_; }  // by all Newton steps so far

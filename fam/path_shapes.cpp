@@ -2,6 +2,7 @@
 // are.
 #include "fam/load_length.h"
 #include "fam/path_equations.h"
+#include "fam/stations.h"
 
 #include <algorithm>
 
@@ -68,6 +69,36 @@ std::vector<Vector3d> PathEquations::centreline_mm(const PathState& state, int f
   finer.set(rod().way(), arcs, rod().law(), rod().model());
   Placed placed;
   return place(finer, segments, state.nodes, placed);
+}
+
+scene::Equilibrium PathEquations::equilibrium(const PathState& state, const scene::Scene& scene) {
+  set_parameter(state.parameter);
+  const auto count = static_cast<std::size_t>(rod().arc_count());
+  Placed arcs(count);
+  std::vector<RigidMotion> motions(count);
+  std::vector<SectionWrench> distal_wrenches_S(count);
+  struct {
+    Placed& arcs;
+    std::vector<RigidMotion>& motions;
+    std::vector<SectionWrench>& wrenches_S;
+    void meet(int arc, const SectionState<3>& at) const { wrenches_S[static_cast<std::size_t>(arc)] = at.wrench; }
+    void operator()(int arc, const Screw& screw, const RigidMotion& motion, const SectionState<3>&) const {
+      arcs[static_cast<std::size_t>(arc)].screw = screw;
+      motions[static_cast<std::size_t>(arc)] = motion;
+    }
+  } keep{arcs, motions, distal_wrenches_S};
+  for (std::size_t k = 0; k < segments().size(); ++k) {
+    SectionState<3> at = state.nodes[k];
+    rod().march(segments()[k], at, keep);
+  }
+  std::vector<SectionPose> poses{{}};
+  for (const RigidMotion& motion : motions) poses.push_back(poses.back().then(motion));
+  const SolvedRod<3> solved{rod().span_arcs(), arcs, poses, distal_wrenches_S, rod().law(), rod().model()};
+  scene::Equilibrium result;
+  result.status = scene::Status::converged;
+  set_shape(result, scene, spans_, solved, Matrix3d::Identity());
+  result.tip_angle_rad = scene::tip_angle_rad(result.stations, scene::plane_normal(spans_));
+  return result;
 }
 
 std::vector<Vector3d> PathEquations::place(const LoadedRod<3>& rod, std::span<const ArcRange> segments,

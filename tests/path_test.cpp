@@ -400,4 +400,31 @@ TEST(BorderedBand, SolvesWhereTheBandIsSingular) {
   EXPECT_NEAR(band.log_determinant(), std::log(std::abs(determinant)), 1e-9);
 }
 
+// A point's rod, and what fam::solve gives under the same loads; both within the tolerance.
+TEST(Path, EquilibriumIsWhatSolveGives) {
+  PathRequest request =
+      load_path(uniform_rod(100, slender(1500, 1000),
+                            {Force{100, Frame::fixed, {0, 0.1, 0.2}, {0, 0}}, scene::Tendon{{0, 2}, 3, 60}}),
+                0, 1);
+  fam::Options options;
+  options.tolerance_mm = 1e-7;
+  const fam::Path path = fam::Path::follow(request, options);
+  for (const std::size_t point : {path.points().points.size() / 2, path.points().points.size() - 1}) {
+    const scene::Equilibrium here = path.equilibrium(point);
+    const scene::Equilibrium solved =
+        fam::solve(scene::scene_at(request, path.points().points[point].parameter), options);
+    ASSERT_TRUE(here.converged() && solved.converged());
+    EXPECT_LT(here.error_estimate_mm, 1e-7);
+    EXPECT_EQ(here.stable, solved.stable);
+    EXPECT_EQ(here.tip().position_B_mm, path.points().points[point].tip_position_B_mm);
+    EXPECT_LT((here.tip().position_B_mm - solved.tip().position_B_mm).norm(), 2e-7);
+    EXPECT_NEAR(here.tip_angle_rad, solved.tip_angle_rad, 1e-8);
+    EXPECT_LT((here.base().force_B_N - solved.base().force_B_N).norm(), 1e-8);
+    EXPECT_LT((here.base().moment_B_Nmm - solved.base().moment_B_Nmm).norm(), 1e-6);  // 100 mm and 0.3 N
+    ASSERT_EQ(here.tendon_shortening_mm.size(), 1u);
+    EXPECT_NEAR(here.tendon_shortening_mm[0], solved.tendon_shortening_mm[0], 1e-8);
+    EXPECT_GT(std::abs(solved.tendon_shortening_mm[0]), 0.1);
+  }
+}
+
 }  // namespace
