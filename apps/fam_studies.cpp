@@ -4,6 +4,7 @@
 #include "scene/scene_file.h"
 #include "studies/methods/fam_method.h"
 #include "studies/methods/registry.h"
+#include "studies/own_scene/command.h"
 #include "studies/random/command.h"
 #include "studies/registry.h"
 #include "studies/report/output_file.h"
@@ -119,6 +120,9 @@ int main(int argc, char** argv) {
   MethodArguments of_method;
   add_method_options(solve, solve_arguments, of_method);
 
+  studies::CompareArguments compare_arguments;
+  const CLI::App* compare = studies::add_compare_command(app, compare_arguments);
+
   StudyArguments arguments;
   arguments.options.cases = STUDIES_DIR "/cases";
   arguments.options.pages = STUDIES_DIR;
@@ -153,6 +157,7 @@ int main(int argc, char** argv) {
       refuse_options_of_others(*solve, solve_arguments.method);
       return apps::run_solve(solve_arguments, [&](const apps::SolveArguments& a) { return make_method(a, of_method); });
     }
+    if (compare->parsed()) return studies::run_compare(compare_arguments);
     if (cell->parsed()) {
       fmt::print("{}", scene::write_scene(studies::cell_scene(map, x, y)));
       return apps::exit_solved;

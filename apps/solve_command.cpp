@@ -11,7 +11,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -109,22 +108,12 @@ CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments) {
   return solve;
 }
 
-namespace {
-
-// The median of repeats, as each method wants it measured. A solve of more than a second is not repeated.
-double time_of(const studies::Method& method, const scene::Scene& scene, double first_solve_s) {
-  return first_solve_s > 1 ? 1e6 * first_solve_s : studies::measure(method.bare_solve(scene)).median_us;
-}
-
-}  // namespace
-
 int run_solve(const SolveArguments& arguments, const MethodFactory& make_method) {
   const scene::Scene scene = scene::read_scene_file(arguments.scene_path);
   const std::unique_ptr<studies::Method> method = make_method(arguments);
-  const auto start = std::chrono::steady_clock::now();
-  const scene::Equilibrium result = method->solve(scene);
-  const double first_solve_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const double time_us = result.converged() ? time_of(*method, scene, first_solve_s) : 0;
+  scene::Equilibrium result;
+  const double first_solve_s = studies::seconds_of([&] { result = method->solve(scene); });
+  const double time_us = result.converged() ? studies::time_us(method->bare_solve(scene), first_solve_s) : 0;
   if (result.converged() && !arguments.svg_path.empty()) {
     studies::write_file(arguments.svg_path, picture(scene, result, method->name()));
   }

@@ -95,6 +95,25 @@ TEST(OutputFile, WritesWholeOrNotAtAll) {
   std::filesystem::remove_all(folder);
 }
 
+// One of the files cannot be written: the others stay as they were, and nothing is left beside them.
+TEST(OutputFile, WritesAllFilesOrNone) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "fam_files_test";
+  std::filesystem::remove_all(folder);
+  write_files(folder, {{"a", "before"}});
+  std::filesystem::create_directories(folder / "b");
+  EXPECT_THROW(write_files(folder, {{"a", "after"}, {"b", "text"}}), OutputError);
+  std::string text;
+  std::ifstream(folder / "a") >> text;
+  EXPECT_EQ(text, "before");
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.partial"));
+  std::filesystem::remove(folder / "b");
+  write_files(folder, {{"a", "after"}, {"b", "text"}});
+  std::ifstream(folder / "a") >> text;
+  EXPECT_EQ(text, "after");
+  EXPECT_TRUE(std::filesystem::exists(folder / "b"));
+  std::filesystem::remove_all(folder);
+}
+
 TEST(Stopwatch, MeasuresSleeplessWork) {
   volatile double sink = 0;
   const Timing timing = measure(

@@ -48,17 +48,29 @@ ShapeDifference shape_difference(const scene::Equilibrium& a, const scene::Equil
   return difference;
 }
 
-double largest_distance_mm(const scene::Equilibrium& a, const scene::Equilibrium& b) {
+std::vector<Distance> station_distances(const scene::Equilibrium& a, const scene::Equilibrium& b) {
   const double hair_mm = 1e-9 * a.stations.back().s_mm;
-  double largest = 0;
+  std::vector<Distance> shared;
   auto other = b.stations.begin();
   for (const scene::Station& station : a.stations) {
     while (other != b.stations.end() && other->s_mm < station.s_mm - hair_mm) ++other;
     if (other == b.stations.end()) break;
     if (other->s_mm > station.s_mm + hair_mm) continue;
-    largest = std::max(largest, (station.X_BS.position_B_mm - other->X_BS.position_B_mm).norm());
+    shared.push_back({station.s_mm, (station.X_BS.position_B_mm - other->X_BS.position_B_mm).norm()});
   }
-  return largest;
+  return shared;
+}
+
+Distance farthest(const std::vector<Distance>& distances) {
+  Distance most;
+  for (const Distance& distance : distances) {
+    if (distance.mm > most.mm) most = distance;
+  }
+  return most;
+}
+
+double largest_distance_mm(const scene::Equilibrium& a, const scene::Equilibrium& b) {
+  return farthest(station_distances(a, b)).mm;
 }
 
 double quantile(std::vector<double> values, double share) {

@@ -19,7 +19,13 @@ struct ShapeDifference {
 };
 ShapeDifference shape_difference(const scene::Equilibrium& a, const scene::Equilibrium& b, int samples = 40);
 
-// Largest distance of two centrelines at the stations that both have (s = k L/40 and span ends at least).
+// Distances of two centrelines at the stations that both have (s = k L/40 and span ends at least), clamp to tip.
+struct Distance {
+  double s_mm = 0;
+  double mm = 0;
+};
+std::vector<Distance> station_distances(const scene::Equilibrium& a, const scene::Equilibrium& b);
+Distance farthest(const std::vector<Distance>& distances);  // the first of the largest
 double largest_distance_mm(const scene::Equilibrium& a, const scene::Equilibrium& b);
 
 // The value below which this share of the values lies, between neighbours in proportion; the mean of the two middle

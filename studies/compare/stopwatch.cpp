@@ -37,4 +37,12 @@ Timing measure(const std::function<void()>& work, double budget_s, int fewest_re
           static_cast<int>(samples_us.size())};
 }
 
+double seconds_of(const std::function<void()>& work) {
+  return seconds_for(work, 1);
+}
+
+double time_us(const std::function<void()>& work, double first_run_s) {
+  return first_run_s > 1 ? 1e6 * first_run_s : measure(work).median_us;
+}
+
 }  // namespace studies

@@ -21,4 +21,10 @@ constexpr double long_work_s = 0.1;
 // run in batches between two readings of the clock; the first run, cold, is not counted.
 Timing measure(const std::function<void()>& work, double budget_s = 0.02, int fewest_repeats = 7);
 
+// Of one run, cold.
+double seconds_of(const std::function<void()>& work);
+
+// The median of repeats; what took more than a second the first time is not repeated.
+double time_us(const std::function<void()>& work, double first_run_s);
+
 }  // namespace studies

@@ -3,35 +3,71 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <vector>
 
 namespace studies {
+namespace {
 
-void write_file(const std::filesystem::path& path, const std::string& text) {
-  const auto fail = [&](const std::string& reason) {
-    throw OutputError(path.string() + ": cannot be written: " + reason);
-  };
+[[noreturn]] void cannot_be_written(const std::filesystem::path& path, const std::string& reason) {
+  throw OutputError(path.string() + ": cannot be written: " + reason);
+}
+
+// A device or a pipe is written to as it is.
+bool is_written_in_place(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error);
+}
+
+std::filesystem::path partial_of(std::filesystem::path path) {
+  if (!is_written_in_place(path)) path += ".partial";
+  return path;
+}
+
+void write_partial(const std::filesystem::path& path, const std::string& text) {
   std::error_code error;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
-  if (error) fail(error.message());
-
-  // A device or a pipe is written to as it is.
-  const bool in_place = std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error);
-  std::filesystem::path partial = path;
-  if (!in_place) partial += ".partial";
+  if (error) cannot_be_written(path, error.message());
+  const std::filesystem::path partial = partial_of(path);
   errno = 0;
-  {
-    std::ofstream file(partial, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) {
-      const std::string reason = std::strerror(errno);
-      if (!in_place) std::filesystem::remove(partial, error);
-      fail(reason);
-    }
-  }
-  if (in_place) return;
+  std::ofstream file(partial, std::ios::binary);
+  file << text;
+  file.close();
+  if (file) return;
+  const std::string reason = std::strerror(errno);
+  if (partial != path) std::filesystem::remove(partial, error);
+  cannot_be_written(path, reason);
+}
+
+void rename_partial(const std::filesystem::path& path) {
+  const std::filesystem::path partial = partial_of(path);
+  if (partial == path) return;
+  std::error_code error;
   std::filesystem::rename(partial, path, error);
-  if (error) fail(error.message());
+  if (error) cannot_be_written(path, error.message());
+}
+
+}  // namespace
+
+void write_file(const std::filesystem::path& path, const std::string& text) {
+  write_partial(path, text);
+  rename_partial(path);
+}
+
+void write_files(const std::filesystem::path& folder, const std::map<std::string, std::string>& files) {
+  std::vector<std::filesystem::path> written;
+  try {
+    for (const auto& [name, text] : files) {
+      write_partial(folder / name, text);
+      written.push_back(folder / name);
+    }
+  } catch (const OutputError&) {
+    std::error_code error;
+    for (const std::filesystem::path& path : written) {
+      if (!is_written_in_place(path)) std::filesystem::remove(partial_of(path), error);
+    }
+    throw;
+  }
+  for (const std::filesystem::path& path : written) rename_partial(path);
 }
 
 void make_folder(const std::filesystem::path& path) {

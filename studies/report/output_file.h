@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -14,6 +15,9 @@ class OutputError : public std::runtime_error {
 
 // Writes text to a file, making its folder; throws OutputError naming the path and the system's reason.
 void write_file(const std::filesystem::path& path, const std::string& text);
+
+// The same of several files of a folder (name to text): none is renamed before all are written.
+void write_files(const std::filesystem::path& folder, const std::map<std::string, std::string>& files);
 
 // Makes a folder that files can be written to; throws likewise.
 void make_folder(const std::filesystem::path& path);
