@@ -9,6 +9,7 @@
 #include "studies/registry.h"
 #include "studies/report/output_file.h"
 #include "studies/stability/maps.h"
+#include "studies/third_party/command.h"
 
 #include <fmt/format.h>
 
@@ -123,6 +124,9 @@ int main(int argc, char** argv) {
   studies::CompareArguments compare_arguments;
   const CLI::App* compare = studies::add_compare_command(app, compare_arguments);
 
+  studies::ExportArguments export_arguments;
+  const CLI::App* write_deck = studies::add_export_command(app, export_arguments);
+
   StudyArguments arguments;
   arguments.options.cases = STUDIES_DIR "/cases";
   arguments.options.pages = STUDIES_DIR;
@@ -158,6 +162,7 @@ int main(int argc, char** argv) {
       return apps::run_solve(solve_arguments, [&](const apps::SolveArguments& a) { return make_method(a, of_method); });
     }
     if (compare->parsed()) return studies::run_compare(compare_arguments);
+    if (write_deck->parsed()) return studies::run_export(export_arguments);
     if (cell->parsed()) {
       fmt::print("{}", scene::write_scene(studies::cell_scene(map, x, y)));
       return apps::exit_solved;
