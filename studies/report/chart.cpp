@@ -38,6 +38,14 @@ std::vector<double> ticks(const Axis& axis) {
     const int last = static_cast<int>(std::floor(std::log10(axis.high) + 1e-9));
     const int step = std::max(1, (last - first + 7) / 8);
     for (int power = first; power <= last; power += step) values.push_back(std::pow(10, power));
+    if (values.size() > 1) return values;
+    values.clear();
+    for (int power = first - 1; power <= last; ++power) {
+      for (const int digit : {1, 2, 5}) {
+        const double value = digit * std::pow(10, power);
+        if (value >= axis.low * (1 - 1e-9) && value <= axis.high * (1 + 1e-9)) values.push_back(value);
+      }
+    }
     return values;
   }
   const double rough = (axis.high - axis.low) / 5;

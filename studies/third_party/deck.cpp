@@ -136,7 +136,7 @@ class Deck {
   }
 
   std::string step() const {
-    std::string text = "*STEP, NLGEOM, INC=1000\n*STATIC\n0.1, 1, 1e-6, 1\n";
+    std::string text = "*STEP, NLGEOM, INC=200\n*STATIC\n0.1, 1, 1e-6, 1\n";
     for (const auto& [place, load] : loads_) {
       text += place.first ? "*CLOAD, FOLLOWER\n" : "*CLOAD\n";
       for (int i = 0; i < 6; ++i) {
