@@ -10,7 +10,7 @@
 
 namespace fam {
 
-// The paper's law as reconstructed in README.md, "The published law". Second order in h for planar scenes, first order
+// The paper's law as reconstructed in docs/theory.md. Second order in h for planar scenes, first order
 // in 3D with torsion. Kirchhoff rods with one bending stiffness, point loads that follow, in space (published_arc.h).
 struct Published {
   static constexpr LawFacts facts{Law::published, "published", 1, false, false};
