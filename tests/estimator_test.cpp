@@ -1,0 +1,291 @@
+// `fam::Estimator` against shapes of the exact reference. Seeds stand beside the trials; limits state where they are
+// from.
+#include "fam/estimator.h"
+
+#include "exact_reference/solve.h"
+#include "scene/estimation_file.h"
+#include "support.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <sstream>
+
+namespace {
+
+using Eigen::Vector3d;
+using fam::Estimate;
+using fam::Estimator;
+using scene::EstimationProblem;
+using scene::Unknown;
+using Kind = scene::Unknown::Kind;
+
+constexpr double L_mm = 40, EI_Nmm2 = 1500, GJ_Nmm2 = 1000;
+
+scene::Scene rod_under(std::vector<scene::Load> loads) {
+  scene::Stiffness stiffness;
+  stiffness.bending_Nmm2 = {EI_Nmm2, EI_Nmm2};
+  stiffness.torsion_Nmm2 = GJ_Nmm2;
+  scene::Scene scene;
+  scene.sections = {{L_mm, stiffness, Vector3d::Zero()}};
+  scene.loads = std::move(loads);
+  return scene;
+}
+
+scene::Force force(double at_mm, const Vector3d& value_N) {
+  return {at_mm, scene::Frame::fixed, value_N};
+}
+
+// The exact station nearest to a place.
+scene::Station exact_station(const scene::Equilibrium& exact, double s_mm) {
+  return *std::min_element(exact.stations.begin(), exact.stations.end(),
+                           [&](const scene::Station& a, const scene::Station& b) {
+                             return std::abs(a.s_mm - s_mm) < std::abs(b.s_mm - s_mm);
+                           });
+}
+
+scene::Measurement position(const scene::Station& station, double sd_mm) {
+  return {station.s_mm, scene::PositionMeasurement{station.X_BS.position_B_mm, sd_mm}};
+}
+
+scene::Measurement curvature(const scene::Station& station, double sd_per_mm) {
+  const Vector3d moment_S_Nmm = station.X_BS.rotation_BS.transpose() * station.moment_B_Nmm;
+  return {station.s_mm, scene::CurvatureMeasurement{moment_S_Nmm.tail<2>() / EI_Nmm2, sd_per_mm}};
+}
+
+// Components of a load from nothing known.
+std::vector<Unknown> components(std::size_t load, std::initializer_list<int> axes, const scene::Scene& start) {
+  std::vector<Unknown> unknowns;
+  for (const int axis : axes) {
+    Unknown unknown{Kind::component, 0, load, axis, 0};
+    EstimationProblem problem{{{start, {}}}, {}};
+    unknown.prior_mean = scene::value_in(problem, unknown);
+    unknowns.push_back(unknown);
+  }
+  return unknowns;
+}
+
+const Vector3d true_force_N(0.1, 0.5, -0.3);
+
+TEST(Estimator, TipForceFromTheTipsPosition) {
+  const scene::Equilibrium exact = exact_reference::solve(rod_under({force(L_mm, true_force_N)}), {});
+  ASSERT_TRUE(exact.converged());
+  scene::Scene start = rod_under({force(L_mm, Vector3d::Zero())});
+  EstimationProblem problem{{{start, {position(exact.stations.back(), 0.01)}}}, components(0, {0, 1, 2}, start)};
+  const Estimate found = Estimator(problem).estimate();
+  ASSERT_TRUE(found.converged()) << found.message;
+  // 1e-4 N asked; 1.2e-6 measured.
+  EXPECT_LT((found.mean - true_force_N).norm(), 1e-4);
+  EXPECT_TRUE(found.fits);
+  EXPECT_EQ(found.degrees_of_freedom, 0);
+  // The twin: a model 5 % stiffer needs another force for the same shape.
+  problem.scenes[0].scene = support::stiffer(problem.scenes[0].scene);
+  const Estimate stiffer = Estimator(problem).estimate();
+  ASSERT_TRUE(stiffer.converged());
+  EXPECT_GT((stiffer.mean - true_force_N).norm(), 0.02 * true_force_N.norm());
+}
+
+// Normalised error squared, (x - truth) P^-1 (x - truth), of 400 trials: chi-squared distributed with 3 degrees of
+// freedom each where the problem is nearly linear, so that their mean lies within 3 +- 1.96 sqrt(6 / 400) in 95 of 100
+// cases.
+TEST(Estimator, TipForceFromFourPositionsIsAsSureAsItSays) {
+  constexpr int trials = 400;
+  constexpr double sd_mm = 0.01;
+  const scene::Equilibrium exact = exact_reference::solve(rod_under({force(L_mm, true_force_N)}), {});
+  scene::Scene start = rod_under({force(L_mm, Vector3d::Zero())});
+  EstimationProblem problem{{{start, {}}}, components(0, {0, 1, 2}, start)};
+  for (const double s_mm : {10., 20., 30., 40.})
+    problem.scenes[0].measurements.push_back(position(exact_station(exact, s_mm), sd_mm));
+  const std::vector<scene::Measurement> noiseless = problem.scenes[0].measurements;
+  Estimator estimator(problem);
+  std::mt19937_64 seeded(20211);
+  std::normal_distribution<double> normal;
+  double sum = 0, half_sum = 0;
+  int fitting = 0;
+  for (int i = 0; i < trials; ++i) {
+    for (std::size_t k = 0; k < noiseless.size(); ++k) {
+      scene::Measurement noisy = noiseless[k];
+      for (double& x : std::get<scene::PositionMeasurement>(noisy.value).position_B_mm) x += sd_mm * normal(seeded);
+      estimator.set_measurement(0, k, noisy);
+    }
+    const Estimate found = estimator.estimate();
+    ASSERT_TRUE(found.converged()) << i << ": " << found.message;
+    const Vector3d off = found.mean - true_force_N;
+    const double nees = off.dot(found.covariance.inverse() * off);
+    sum += nees;
+    half_sum += nees / 4;  // the twin: deviations told twice as large as they are
+    fitting += found.fits;
+  }
+  const double band = 1.96 * std::sqrt(6.0 / trials);
+  EXPECT_NEAR(sum / trials, 3, band);
+  EXPECT_LT(half_sum / trials, 3 - band);
+  EXPECT_GE(fitting, trials - 3);  // one in 1000 does not
+}
+
+// Places found across the span borders that the loads themselves make.
+TEST(Estimator, TwoContactsAndTheirPlacesFromCurvatures) {
+  const Vector3d first_N(0, 0.6, 0.2), second_N(0, -0.5, 0.3);
+  const scene::Scene truth = rod_under({force(15, first_N), force(31, second_N)});
+  const scene::Equilibrium exact = exact_reference::solve(truth, {});
+  ASSERT_TRUE(exact.converged());
+  scene::Scene start = rod_under({force(10, {0, 0.1, 0.1}), force(25, {0, 0.1, 0.1})});
+  EstimationProblem problem{{{start, {}}}, components(0, {1, 2}, start)};
+  for (const Unknown& unknown : components(1, {1, 2}, start)) problem.unknowns.push_back(unknown);
+  for (const std::size_t load : {0u, 1u}) {
+    Unknown place{Kind::place, 0, load, 0, 0};
+    place.prior_mean = scene::value_in(problem, place);
+    problem.unknowns.push_back(place);
+  }
+  for (int i = 0; i < 20; ++i)
+    problem.scenes[0].measurements.push_back(curvature(exact_station(exact, 1 + 2 * i), 1e-4));
+  const Estimate found = Estimator(problem).estimate();
+  ASSERT_TRUE(found.converged()) << found.message;
+  Eigen::VectorXd expected(6);
+  expected << 0.6, 0.2, -0.5, 0.3, 15, 31;
+  EXPECT_LT((found.mean - expected).cwiseAbs().maxCoeff(), 1e-3);  // N and mm; 2e-5 measured
+  EXPECT_TRUE(found.fits);
+  // The twin: one force alone does not fit.
+  EstimationProblem alone{{{rod_under({force(10, {0, 0.1, 0.1})}), problem.scenes[0].measurements}}, {}};
+  alone.unknowns = {problem.unknowns[0], problem.unknowns[1], problem.unknowns[4]};
+  const Estimate unfit = Estimator(alone).estimate();
+  EXPECT_FALSE(unfit.converged() && unfit.fits);
+}
+
+TEST(Estimator, AxialForceOnAStraightRodIsNotObservable) {
+  scene::Scene start = rod_under({force(L_mm, Vector3d::Zero())});
+  EstimationProblem problem{{{start, {{L_mm, scene::PositionMeasurement{{L_mm, 0, 0}, 0.01}}}}},
+                            components(0, {0, 1, 2}, start)};
+  const Estimate found = Estimator(problem).estimate();
+  ASSERT_TRUE(found.converged()) << found.message;
+  EXPECT_EQ(found.observable, (std::vector<bool>{false, true, true}));
+  EXPECT_TRUE(std::isnan(found.sd[0]));
+  // L^3/(3 EI) mm a newton.
+  EXPECT_NEAR(found.sd[1] / (0.01 * 3 * EI_Nmm2 / std::pow(L_mm, 3)), 1, 1e-6);
+  // With a prior it stays the prior's.
+  problem.unknowns[0].prior_sd = 0.5;
+  EXPECT_FALSE(Estimator(problem).estimate().observable[0]);
+  // The twin: bent, it is.
+  const scene::Equilibrium bent = exact_reference::solve(rod_under({force(L_mm, true_force_N)}), {});
+  problem.scenes[0].measurements = {position(bent.stations.back(), 0.01)};
+  problem.unknowns[0].prior_sd.reset();
+  EXPECT_TRUE(Estimator(problem).estimate().observable[0]);
+}
+
+TEST(Estimator, ForceNextToTheClampIsNotObservable) {
+  scene::Scene truth = rod_under({force(0.9e-6 * L_mm, {0, 0.5, 0}), force(L_mm, {0, 0.2, 0})});
+  const scene::Equilibrium exact = exact_reference::solve(truth, {});
+  scene::Scene start = rod_under({force(0.9e-6 * L_mm, Vector3d::Zero()), force(L_mm, Vector3d::Zero())});
+  EstimationProblem problem{
+      {{start, {position(exact_station(exact, 20), 0.01), position(exact.stations.back(), 0.01)}}},
+      components(0, {1}, start)};
+  problem.unknowns.push_back(components(1, {1}, start)[0]);
+  const Estimate found = Estimator(problem).estimate();
+  ASSERT_TRUE(found.converged()) << found.message;
+  EXPECT_EQ(found.observable, (std::vector<bool>{false, true}));
+  EXPECT_NEAR(found.mean[1], 0.2, 1e-4);
+}
+
+TEST(Estimator, TwoForcesAtOnePlaceAreNotObservable) {
+  const scene::Equilibrium exact = exact_reference::solve(rod_under({force(20, {0, 0.7, 0})}), {});
+  scene::Scene start = rod_under({force(20, {0, 0.1, 0}), force(20, {0, 0.1, 0})});
+  EstimationProblem problem{{{start, {position(exact.stations.back(), 0.01)}}}, components(0, {1}, start)};
+  problem.unknowns.push_back(components(1, {1}, start)[0]);
+  const Estimate found = Estimator(problem).estimate();
+  ASSERT_TRUE(found.converged()) << found.message;
+  EXPECT_EQ(found.observable, (std::vector<bool>{false, false}));
+  ASSERT_EQ(found.unobservable.size(), 1u);
+  EXPECT_NEAR(std::abs(found.unobservable[0].dot(Eigen::Vector2d(1, -1).normalized())), 1, 1e-6);
+}
+
+// One rod, three poses under known loads: its stiffness and rest curvature.
+TEST(Estimator, CalibratesARodFromManyPoses) {
+  const double bending = 1.1, torsion = 0.9;
+  const Vector3d rest_per_mm(0, 0.002, 0.001);
+  EstimationProblem problem;
+  for (const Vector3d& value_N : {Vector3d(0, 0.5, 0.2), Vector3d(0.1, -0.4, 0.3), Vector3d(-0.2, 0.1, -0.5)}) {
+    const scene::Moment moment{L_mm, scene::Frame::follower, {12, 0, 0}};
+    scene::Scene given = rod_under({force(L_mm, value_N), moment}), truth = given;
+    auto& stiffness = std::get<scene::Stiffness>(truth.sections[0].cross_section);
+    stiffness.bending_Nmm2 *= bending;
+    stiffness.torsion_Nmm2 *= torsion;
+    truth.sections[0].rest_curvature_per_mm = rest_per_mm;
+    const scene::Equilibrium exact = exact_reference::solve(truth, {});
+    ASSERT_TRUE(exact.converged());
+    const scene::Station& tip = exact.stations.back();
+    const scene::Measurement rotation{L_mm, scene::RotationMeasurement{tip.X_BS.rotation_BS, 1e-3}};
+    problem.scenes.push_back({given, {position(tip, 0.01), rotation}});
+  }
+  const Kind kinds[] = {Kind::bending_factor, Kind::torsion_factor, Kind::rest_curvature, Kind::rest_curvature};
+  for (int i = 0; i < 4; ++i) problem.unknowns.push_back({kinds[i], 0, 0, i < 2 ? 0 : i - 1, i < 2 ? 1. : 0.});
+  const Estimate found = Estimator(problem).estimate();
+  ASSERT_TRUE(found.converged()) << found.message;
+  EXPECT_NEAR(found.mean[0], bending, 1e-4);
+  EXPECT_NEAR(found.mean[1], torsion, 1e-4);
+  EXPECT_NEAR(found.mean[2], 0.002, 1e-6);
+  EXPECT_NEAR(found.mean[3], 0.001, 1e-6);
+  EXPECT_EQ(found.degrees_of_freedom, 14);
+  EXPECT_TRUE(found.fits);
+  // The twin: rest curvature held at zero does not fit.
+  problem.unknowns.resize(2);
+  const Estimate unfit = Estimator(problem).estimate();
+  EXPECT_FALSE(unfit.converged() && unfit.fits);
+}
+
+// Base wrench and prior: each row halves the variance of a force that both give with one deviation.
+TEST(Estimator, BaseWrenchAndPriorWeighAsTheirDeviations) {
+  scene::Scene start = rod_under({force(L_mm, {0, 0.4, 0})});
+  EstimationProblem problem{{{start, {}}}, components(0, {0, 1, 2}, start)};
+  problem.scenes[0].measurements = {{0, scene::BaseWrenchMeasurement{{{0.1, 0.5, 0}, Vector3d::Zero()}, 0.01, 1e6}}};
+  for (Unknown& unknown : problem.unknowns) unknown.prior_sd = 0.01;
+  const Estimate found = Estimator(problem).estimate();
+  ASSERT_TRUE(found.converged()) << found.message;
+  EXPECT_LT((found.mean - Vector3d(0.05, 0.45, 0)).norm(), 1e-8);
+  EXPECT_NEAR(found.sd[1], 0.01 / std::sqrt(2), 1e-8);
+  EXPECT_EQ(found.degrees_of_freedom, 6);
+}
+
+std::string refusal_of(const std::string& unknowns, const std::string& measurements) {
+  std::istringstream input(
+      R"({"scene":{"rod":{"sections":[{"length_mm":40,"stiffness":{"bending_Nmm2":750,)"
+      R"("torsion_Nmm2":500,"mass_per_length_kg_per_m":0.1}}]},"loads":[{"kind":"force","at":"tip","frame":"fixed",)"
+      R"("value_N":[0,0,0]},{"kind":"gravity","acceleration_m_per_s2":[0,0,-9.81]}]},"unknowns":)" +
+      unknowns + R"(,"measurements":)" + measurements + "}");
+  try {
+    scene::read_estimation(input, "file");
+  } catch (const scene::SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Estimator, WrongProblemsAreRefusedInOneLine) {
+  const std::string x = R"([{"load":0,"component":"x"}])";
+  const std::string good = R"([{"kind":"position","at":"tip","value_mm":[40,0,0],"sd_mm":0.1}])";
+  const auto measured = [](const std::string& rest) { return "[{" + rest + "}]"; };
+  const std::tuple<std::string, std::string, std::string> cases[] = {
+      {"[]", good, "file: unknowns = []: must hold an unknown"},
+      {R"([{"load":0,"component":"q"}])", good, "unknowns[0].component"},
+      {R"([{"load":7,"component":"x"}])", good, "unknowns[0].load = 7"},
+      {R"([{"load":1,"at_mm":true}])", good, "unknowns[0].load"},
+      {R"([{"section":1,"bending_factor":true}])", good, "unknowns[0].section = 1"},
+      {R"([{"section":0,"shear_factor":true}])", good, "must name bending_factor"},
+      {R"([{"load":0,"component":"x","prior_sd":-1}])", good, "unknowns[0].prior_sd = -1"},
+      {R"([{"load":0,"component":"x","prior_mean":1}])", good, "needs a prior_sd"},
+      {R"([{"load":0,"component":"x"},{"load":0,"component":"x"}])", good, "unknowns[1]"},
+      {x, "[]", "measurements = []"},
+      {x, measured(R"("kind":"position","at":41,"value_mm":[1,2,3],"sd_mm":1)"), "measurements[0].at = 41"},
+      {x, measured(R"("kind":"position","at":4,"value_mm":[1,2,3],"sd_mm":0)"), "measurements[0].sd_mm = 0"},
+      {x, measured(R"("kind":"rotation","at":4,"value":[[1,0,0],[0,1,0],[0,0,2]],"sd_rad":1)"), "R^T R = 1"},
+      {x, measured(R"("kind":"smell","at":4)"), "measurements[0].kind"},
+  };
+  EXPECT_EQ(refusal_of(x, good), "");
+  for (const auto& [unknowns, measurements, rule] : cases) {
+    const std::string line = refusal_of(unknowns, measurements);
+    EXPECT_NE(line.find(rule), std::string::npos) << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos);
+  }
+}
+
+}  // namespace
