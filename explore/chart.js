@@ -49,7 +49,7 @@ class WorkChart {
     document.getElementById("advice").textContent = `Take ${method}: fastest as called on ${wins} of ${scenes} scenes, median ${median(method)}.
       If you know beforehand how many arcs or steps suffice: ${kernel}, on ${kernelWins}, ${median(kernel)}.`;
     document.querySelector("#chart-table tbody").replaceChildren(...curves.map(curve => element("tr",
-      {className: curve.name === method ? "best" : ""}, element("th", {scope: "row"}, curve.name),
+      {className: curve.name === method ? "best" : ""}, element("th", {scope: "row"}, element("span", {className: "swatch", style: `background: ${curveColours[curve.name]}`}), ` ${curve.name}`),
       element("td", {}, timeText(curve.median_us[target])),
       element("td", {}, `${curve.by_scene_us[target].filter(time => time !== null).length} of ${scenes}`))));
     document.getElementById("chart").innerHTML = this.picture(curves, target);

@@ -23,6 +23,12 @@ const placeOf = load => load.kind === "gravity" ? "the whole rod" : load.kind ==
   ? `from ${load.from_mm ?? 0} to ${load.to_mm ?? "the tip"}` : load.kind === "tendon"
   ? `to ${load.to_mm ?? "the tip"}` : load.at === "tip" ? "at the tip" : `at ${load.at} mm`;
 
+// Whether the fields can show these loads: while one types they are anything, and FAM says what is wrong.
+const areLoads = loads => Array.isArray(loads) && loads.every(load => {
+  const known = loadKinds[load?.kind], values = known && [load[known.key]].flat();
+  return known && values.length === known.axes.length && values.every(Number.isFinite);
+});
+
 const roughly = value => Number(value.toPrecision(6));
 const isArrow = load => load.kind === "force" || load.kind === "moment";
 

@@ -14,7 +14,7 @@ import sys
 root = pathlib.Path(__file__).resolve().parent.parent
 cases = root / "studies/cases"
 results = root / "results/work_precision"
-scripts = ["view.js", "editor.js", "chart.js", "explore.js"]
+scripts = ["fam.js", "view.js", "editor.js", "chart.js", "facts.js", "hands.js", "explore.js"]
 targets = [f"1e-{digit:02}" for digit in range(2, 10)]  # tip error over L
 # A curve of the chart: its name, the methods of the study whose faster one counts, their rod model; as called, or a
 # bare kernel that knows how many arcs, steps or elements it needs.
@@ -107,4 +107,5 @@ def main(build, output):
     print(f"{output}: {len(page.encode()) / 1e6:.2f} MB")
 
 
-main(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]))
+if __name__ == "__main__":
+    main(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]))

@@ -92,8 +92,8 @@ class View {
       line([0, ...a], [0, ...b], "#1c2430", 2.5);
   }
 
-  // points: positions clamp to tip; radius_mm along them.
-  drawRod(context, {points, radius_mm, colour, dashed}) {
+  // points: positions clamp to tip; radius_mm along them; share: of the width as drawn.
+  drawRod(context, {points, radius_mm, colour, share, dashed}) {
     const placed = points.map(p => this.project(p));
     context.setLineDash(dashed ? [6, 5] : []);
     if (dashed) {
@@ -106,7 +106,7 @@ class View {
       return;
     }
     const scale = this.pixelsPerMm();
-    const pieces = placed.slice(1).map((end, i) => ({begin: placed[i], end, width: Math.max(3, Math.min(26, 2 * scale * radius_mm[i + 1]))}));
+    const pieces = placed.slice(1).map((end, i) => ({begin: placed[i], end, width: Math.max(3, share * Math.min(26, 2 * scale * radius_mm[i + 1]))}));
     pieces.sort((a, b) => a.begin.depth + a.end.depth - b.begin.depth - b.end.depth);
     const stroke = (width, style, shift) => pieces.forEach(piece => {
       context.strokeStyle = style(piece);
