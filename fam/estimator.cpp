@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 using scene::Measurement;
 using scene::Status;
 using scene::Unknown;
-using Kind = scene::Unknown::Kind;
+using UnknownKind = scene::Unknown::Kind;
 using Vector6 = Solver::Vector6;
 
 // All chosen, not measured.
@@ -44,7 +44,7 @@ double unit_of(const Unknown& unknown, const scene::EstimationProblem& problem) 
   const scene::Stiffness stiffness = scene::stiffness_of(scene.sections.front());
   const double EI = stiffness.bending_Nmm2.maxCoeff();
   switch (unknown.kind) {
-    case Kind::component:
+    case UnknownKind::component:
       return scene::visit_load(
           scene.loads[unknown.index], [&](const scene::Force&) { return EI / (L * L); },
           [&](const scene::Moment&) { return EI / L; },
@@ -54,16 +54,16 @@ double unit_of(const Unknown& unknown, const scene::EstimationProblem& problem) 
             return mass > 0 ? EI / (L * L * L) / mass : 1;
           },
           [&](const scene::Tendon&) { return EI / (L * L); });
-    case Kind::place: return L;
-    case Kind::rest_curvature: return 1 / L;
-    case Kind::bending_factor:
-    case Kind::torsion_factor: break;
+    case UnknownKind::place: return L;
+    case UnknownKind::rest_curvature: return 1 / L;
+    case UnknownKind::bending_factor:
+    case UnknownKind::torsion_factor: break;
   }
   return 1;
 }
 
 bool is_of_section(const Unknown& unknown) {
-  return unknown.kind != Kind::component && unknown.kind != Kind::place;
+  return unknown.kind != UnknownKind::component && unknown.kind != UnknownKind::place;
 }
 
 // The section at a place, that towards the clamp at a border.
@@ -117,14 +117,14 @@ Vector6 by_rest_curvature(const Solver& solver, Of of, const Unknown& unknown, d
 // Per unit of the unknown as the scene has it; `given` is the section before any factor.
 Vector6 derivative(const Solver& solver, Of of, const Unknown& unknown, const scene::Scene& given, double s_mm) {
   switch (unknown.kind) {
-    case Kind::component: return by_load(solver, of, unknown, s_mm);
-    case Kind::place: return by_place(solver, of, unknown, s_mm);
-    case Kind::rest_curvature: return by_rest_curvature(solver, of, unknown, s_mm);
-    case Kind::bending_factor:
-    case Kind::torsion_factor: break;
+    case UnknownKind::component: return by_load(solver, of, unknown, s_mm);
+    case UnknownKind::place: return by_place(solver, of, unknown, s_mm);
+    case UnknownKind::rest_curvature: return by_rest_curvature(solver, of, unknown, s_mm);
+    case UnknownKind::bending_factor:
+    case UnknownKind::torsion_factor: break;
   }
   const scene::Stiffness stiffness = scene::stiffness_of(given.sections[unknown.index]);
-  const Vector3d change_Nmm2 = unknown.kind == Kind::bending_factor
+  const Vector3d change_Nmm2 = unknown.kind == UnknownKind::bending_factor
                                    ? Vector3d(0, stiffness.bending_Nmm2[0], stiffness.bending_Nmm2[1])
                                    : Vector3d(stiffness.torsion_Nmm2, 0, 0);
   return by_stiffness(solver, of, unknown.index, s_mm, change_Nmm2);
@@ -262,11 +262,11 @@ struct Estimator::Impl {
   VectorXd bounded(VectorXd at) const {
     for (Eigen::Index k = 0; k < at.size(); ++k) {
       const Unknown& u = unknown(k);
-      if (u.kind == Kind::place)
+      if (u.kind == UnknownKind::place)
         at[k] = std::clamp(at[k], 0.0, scene::length_mm(given.scenes[u.scene].scene) / unit[k]);
-      if (u.kind == Kind::component && scene::tendon_of(given.scenes[u.scene].scene.loads[u.index]))
+      if (u.kind == UnknownKind::component && scene::tendon_of(given.scenes[u.scene].scene.loads[u.index]))
         at[k] = std::max(at[k], 0.0);
-      if (u.kind == Kind::bending_factor || u.kind == Kind::torsion_factor) at[k] = std::max(at[k], 0.01);
+      if (u.kind == UnknownKind::bending_factor || u.kind == UnknownKind::torsion_factor) at[k] = std::max(at[k], 0.01);
     }
     return at;
   }
@@ -284,11 +284,11 @@ struct Estimator::Impl {
       scene::visit_load(
           now.scenes[scene].scene.loads[u.index],
           [&](const scene::Force& load) {
-            if (u.kind == Kind::place) solver.set_at_mm(u.index, load.at_mm);
+            if (u.kind == UnknownKind::place) solver.set_at_mm(u.index, load.at_mm);
             else solver.set_force_N(u.index, load.value_N);
           },
           [&](const scene::Moment& load) {
-            if (u.kind == Kind::place) solver.set_at_mm(u.index, load.at_mm);
+            if (u.kind == UnknownKind::place) solver.set_at_mm(u.index, load.at_mm);
             else solver.set_moment_Nmm(u.index, load.value_Nmm);
           },
           [&](const scene::DistributedForce& load) { solver.set_distributed_N_per_mm(u.index, load.value_N_per_mm); },
@@ -351,7 +351,7 @@ struct Estimator::Impl {
   VectorXd limited(VectorXd step) const {
     double share = 1;
     for (Eigen::Index k = 0; k < step.size(); ++k) {
-      const double most = unknown(k).kind == Kind::place ? longest_place_step : longest_step;
+      const double most = unknown(k).kind == UnknownKind::place ? longest_place_step : longest_step;
       share = std::min(share, most / std::max(std::abs(step[k]), most));
     }
     return share * step;

@@ -37,6 +37,11 @@ std::string name_of(const Unknown& unknown, const EstimationProblem& problem) {
   return of + "rest_curvature_" + "xyz"[unknown.component] + ", 1/mm";
 }
 
+bool has_place(const Load& load) {
+  Load copy = load;
+  return place_of(copy) != nullptr;
+}
+
 double value_in(const EstimationProblem& problem, const Unknown& unknown) {
   const Scene& scene = problem.scenes[unknown.scene].scene;
   switch (unknown.kind) {

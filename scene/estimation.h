@@ -21,7 +21,7 @@ struct Unknown {
   std::size_t scene = 0;  // whose load; sections are those of all scenes
   std::size_t index = 0;  // of the load or the section
   int component = 0;
-  double prior_mean = 0;           // where the search begins, too; without a prior the scene's value, 1 of factors
+  double prior_mean = 0;  // where the search begins, too; without a prior the scene's value, 1 of factors
   std::optional<double> prior_sd = std::nullopt;  // none: no prior
 };
 
@@ -62,6 +62,9 @@ struct EstimationProblem {
 
 // "loads[0].x, N", "sections[1].bending_factor"; with several scenes the load's scene before it.
 std::string name_of(const Unknown& unknown, const EstimationProblem& problem);
+
+// Whether it stands at a place that can be found: a force or a moment.
+bool has_place(const Load& load);
 
 // The number as the scene has it; 1 of factors.
 double value_in(const EstimationProblem& problem, const Unknown& unknown);

@@ -88,8 +88,7 @@ Unknown load_unknown(const JsonNode& node, const EstimationProblem& problem) {
   if (node.has("at_mm")) {
     node.allow_keys({"scene", "load", "at_mm", "prior_mean", "prior_sd"});
     require_true(node, "at_mm");
-    if (!std::holds_alternative<Force>(load) && !std::holds_alternative<Moment>(load))
-      node.at("load").refuse("only a force or a moment stands at a place that can be found");
+    if (!has_place(load)) node.at("load").refuse("only a force or a moment stands at a place that can be found");
     unknown.kind = Kind::place;
     return unknown;
   }
