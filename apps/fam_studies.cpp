@@ -2,6 +2,7 @@
 #include "allocation_counter.h"
 #include "apps/solve_command.h"
 #include "scene/scene_file.h"
+#include "studies/campaign/command.h"
 #include "studies/methods/fam_method.h"
 #include "studies/methods/registry.h"
 #include "studies/own_scene/command.h"
@@ -143,6 +144,8 @@ int main(int argc, char** argv) {
   std::function<int()> chosen = [&] { return run_studies(app, arguments); };
   const studies::Progress::Style progress = studies::Progress::style_of(stderr);
   studies::add_random_commands(*app.get_subcommand("random"), progress, chosen);
+
+  studies::add_campaign_commands(*app.get_subcommand("campaign"), progress, chosen);
 
   std::string map;
   double x = 0, y = 0;

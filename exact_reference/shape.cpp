@@ -39,6 +39,13 @@ void set_shape(scene::Equilibrium& result, const ScaledRod& rod, const Shooting&
   result.tendon_shortening_mm = tendon_shortening_mm(rod, nodes);
 }
 
+std::vector<scene::Station> stations_at(const std::vector<scene::Station>& places, const ScaledRod& rod,
+                                        const Shooting& shooting, const NodeStates& y) {
+  std::vector<double> at;
+  for (const scene::Station& station : places) at.push_back(station.s_mm / rod.length_mm);
+  return stations_of(rod, states_at(at, rod, shooting, y));
+}
+
 bool tendon_has_collapsed(const ScaledRod& rod, const Shooting& shooting, const NodeStates& y, double load_factor) {
   constexpr double collapsed = 1e-4;
   for (std::size_t i = 0; i < shooting.mesh().size(); ++i) {

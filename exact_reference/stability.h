@@ -14,8 +14,8 @@ namespace exact_reference {
 // only. Each mesh interval's share, a 6x6 form of its two end rotations, follows exactly from the variational
 // equations; the rod's form is block tridiagonal, and its negative eigenvalues are counted while eliminating from tip
 // to clamp; where fixed forces act off the centreline, the form of their lever arms is added. Their number is that of
-// the conjugate points in (0, L]. Intervals must be short enough to hold none themselves. Only for scenes without
-// follower loads and fixed moments; `y` must be an equilibrium of `shooting`'s mesh under `load` times the loads.
+// the conjugate points in (0, L]. Intervals must be short enough to hold none themselves. Exact for scenes without
+// follower loads and fixed moments, whose form is not symmetric: of that the symmetric part is taken; `y` must be an equilibrium of `shooting`'s mesh under `load` times the loads.
 //
 // turns_freely: one direction is known to cost nothing and is left out.
 std::optional<int> falling_directions(const Shooting& shooting, const NodeStates& y, double load = 1,

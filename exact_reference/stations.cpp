@@ -140,18 +140,24 @@ std::vector<Turn> turns_of(const ScaledRod& rod, const std::vector<PlacedState>&
   return turns;
 }
 
-void set_shape(scene::Equilibrium& result, const ScaledRod& rod, const std::vector<PlacedState>& states) {
+std::vector<scene::Station> stations_of(const ScaledRod& rod, const std::vector<PlacedState>& states) {
+  std::vector<scene::Station> stations;
   SpanFinder spans(rod);
   const Matrix3d back = rod.turn_about_axis.transpose();
   for (const auto& [place, y] : states) {
     const RodEquations equations(rod.spans[spans.at(place)], 1);
     const Matrix3d R = rotation_of(y.head<4>().normalized());
     const scene::Wrench own = equations.own_wrench_S(R.transpose() * y.segment<3>(4), R.transpose() * y.segment<3>(7));
-    result.stations.push_back({place * rod.length_mm,
-                               {back * R * back.transpose(), rod.length_mm * (back * y.tail<3>())},
-                               rod.force_unit_N * (back * R * own.force_N),
-                               rod.moment_unit_Nmm * (back * R * own.moment_Nmm)});
+    stations.push_back({place * rod.length_mm,
+                        {back * R * back.transpose(), rod.length_mm * (back * y.tail<3>())},
+                        rod.force_unit_N * (back * R * own.force_N),
+                        rod.moment_unit_Nmm * (back * R * own.moment_Nmm)});
   }
+  return stations;
+}
+
+void set_shape(scene::Equilibrium& result, const ScaledRod& rod, const std::vector<PlacedState>& states) {
+  result.stations = stations_of(rod, states);
   result.tip_angle_rad = scene::tip_angle_rad(result.stations, rod.plane_normal_B);
 }
 

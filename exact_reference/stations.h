@@ -27,7 +27,10 @@ std::vector<double> station_places(const ScaledRod& rod, const std::vector<Turn>
 // The turn between states that lie close, from their curvatures.
 std::vector<Turn> turns_of(const ScaledRod& rod, const std::vector<PlacedState>& states);
 
-// Stations and tip angle of a result. The wrench is the rod's own, tendons left out.
+// The wrench is the rod's own, tendons left out.
+std::vector<scene::Station> stations_of(const ScaledRod& rod, const std::vector<PlacedState>& states);
+
+// Stations and tip angle of a result.
 void set_shape(scene::Equilibrium& result, const ScaledRod& rod, const std::vector<PlacedState>& states);
 
 // int |e_x + u0 x r| ds - int |v + u x r| ds of each of the scene's tendons in mm: Gauss's rule of five points between

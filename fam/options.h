@@ -33,6 +33,10 @@ struct Options {
   // that is stable (the next at all where the loads have no energy), in place of limit_point.
   bool after_snap = false;
 
+  // Of fam::solve, where the growing load gets stuck: false leaves out the search for the fold (up to seconds), and the
+  // status is the growth's own. Without effect where after_snap asks for more.
+  bool locate_limit = true;
+
   // Of a Solver: arcs that memory is taken for, those of the estimate's finer run included, 1..max_arcs.
   int reserved_arcs = 1024;
 

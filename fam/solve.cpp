@@ -50,7 +50,8 @@ Equilibrium after_failure(const Problem& problem, const Run& run) {
   const double reached = run.engine.load_factor();
   const bool stuck = run.status == Status::load_step_too_small || run.status == Status::work_limit ||
                      run.status == Status::tendon_collapsed;
-  if (stuck && reached > 0) {
+  const bool asked = problem.options().locate_limit || problem.options().after_snap;
+  if (stuck && reached > 0 && asked) {
     if (auto result = beyond_growth(problem.scene(), problem.options())) return *result;
   }
   return failure(run);

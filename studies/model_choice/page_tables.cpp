@@ -77,7 +77,7 @@ CellOf times_of(Value value) {
   };
 }
 
-double time_us(const Rung* rung) {
+double rung_time_us(const Rung* rung) {
   return rung != nullptr && rung->time ? rung->time->median_us : 0;
 }
 
@@ -87,7 +87,7 @@ double smallest_time_us(const ChoiceScene& scene, const ChosenModel& choice) {
     const ModelSize& model = ladder.front().model;
     const bool as_chosen = !model.finite_elements && model.space == choice.rung.model.space &&
                            model.march == choice.rung.model.march && model.shear == choice.shear_needed;
-    if (as_chosen) return time_us(smallest_sufficient(ladder, choice.tolerance));
+    if (as_chosen) return rung_time_us(smallest_sufficient(ladder, choice.tolerance));
   }
   return 0;
 }
@@ -129,10 +129,10 @@ std::string choice_times_table(const ModelChoiceData& data) {
     const auto add = [&](const std::string& name, const CellOf& cell) {
       add_row(table, data, group, group + ": " + name, cell);
     };
-    add("`fam solve`", times_of([](const auto&, const auto& c) { return time_us(&c.rung); }));
+    add("`fam solve`", times_of([](const auto&, const auto& c) { return rung_time_us(&c.rung); }));
     add("smallest sufficient arcs, known beforehand", times_of(smallest_time_us));
     add("fewest sufficient elements",
-        times_of([](const auto& scene, const auto& c) { return time_us(scene.smallest_elements(c.tolerance)); }));
+        times_of([](const auto& scene, const auto& c) { return rung_time_us(scene.smallest_elements(c.tolerance)); }));
   }
   return table.markdown();
 }
@@ -165,8 +165,8 @@ std::string more_table(const ModelChoiceData& data) {
   Table table(head_of_accuracies("time over the chosen model's"));
   for (const std::string& what : neighbour::more) {
     add_row(table, data, "", what, times_of([what](const auto&, const ChosenModel& c) {
-              const double chosen_us = time_us(c.beside(neighbour::same));
-              return chosen_us > 0 ? time_us(c.beside(what)) / chosen_us : 0;
+              const double chosen_us = rung_time_us(c.beside(neighbour::same));
+              return chosen_us > 0 ? rung_time_us(c.beside(what)) / chosen_us : 0;
             }));
   }
   return table.markdown();

@@ -30,6 +30,10 @@ std::string checksum(const std::string& text) {
 
 }  // namespace
 
+std::string commit() {
+  return build_info::commit;
+}
+
 std::string machine_line() {
   return fmt::format("{}; {} {}; one thread", processor(), build_info::compiler, build_info::flags);
 }

@@ -12,6 +12,9 @@ namespace studies {
 void write_results(const std::filesystem::path& folder, const std::string& command,
                    const std::map<std::string, std::string>& files);
 
+// Of the build: its commit, with a mark where files differed from it.
+std::string commit();
+
 // Processor, compiler and flags in one line, for the head of timing tables.
 std::string machine_line();
 

@@ -326,16 +326,31 @@ std::uint64_t mixed_seed(std::uint64_t index) {
   return place == 5 ? first_buckling_seed + ten : first_family_seed + 4 * ten + (place - 6);
 }
 
+namespace {
+
+// Of a family its place among the families, of a general scene or one that buckles these.
+constexpr std::size_t general = families.size(), buckling = general + 1;
+
+std::size_t kind_index(std::uint64_t seed) {
+  if (seed >= first_campaign_seed) {
+    const std::uint64_t index = seed % first_campaign_seed, ten = index / 10, place = index % 10;
+    return place < 5 ? general : place == 5 ? buckling : (4 * ten + place - 6) % families.size();
+  }
+  if (seed < first_buckling_seed) return general;
+  return seed < first_family_seed ? buckling : (seed - first_family_seed) % families.size();
+}
+
+}  // namespace
+
 std::string kind_of(std::uint64_t seed) {
-  if (seed < first_buckling_seed) return "general";
-  return seed < first_family_seed ? "buckling" : families[(seed - first_family_seed) % families.size()];
+  const std::size_t kind = kind_index(seed);
+  return kind == general ? "general" : kind == buckling ? "buckling" : families[kind];
 }
 
 scene::Scene random_scene(std::uint64_t seed, const RandomSceneLimits& limits) {
   Drawing drawing(seed, limits);
-  scene::Scene scene = seed < first_buckling_seed ? drawing.scene()
-                       : seed < first_family_seed ? drawing.buckling()
-                                                  : drawing.family((seed - first_family_seed) % families.size());
+  const std::size_t kind = kind_index(seed);
+  scene::Scene scene = kind == general ? drawing.scene() : kind == buckling ? drawing.buckling() : drawing.family(kind);
   scene.title = "random scene " + std::to_string(seed);
   return scene;
 }

@@ -29,6 +29,16 @@ constexpr std::array<const char*, 6> families{"strips", "heavy rods", "coiled ro
 // The seed of scene 0, 1, 2, ... of a mix: of ten five are general, one buckles, four are of the families.
 std::uint64_t mixed_seed(std::uint64_t index);
 
+// Seeds from this one on are those of campaigns, 2^40 of each: of ten neighbours five are general, one buckles, four are
+// of the families, in turn.
+constexpr std::uint64_t first_campaign_seed = std::uint64_t{1} << 40;
+constexpr std::uint64_t most_campaign_scenes = first_campaign_seed, most_campaigns = std::uint64_t{1} << 22;
+
+// The seed of scene `index` of a campaign.
+constexpr std::uint64_t campaign_seed(std::uint64_t campaign, std::uint64_t index) {
+  return first_campaign_seed * (1 + campaign) + index;
+}
+
 // What the scenes of this seed are called: "general", "buckling", or a family.
 std::string kind_of(std::uint64_t seed);
 

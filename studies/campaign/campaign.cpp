@@ -1,0 +1,4 @@
+#include "studies/study.h"
+namespace studies {
+void campaign(const StudyOptions&) {}
+}  // namespace studies

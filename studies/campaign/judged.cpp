@@ -1,0 +1,23 @@
+#include "studies/campaign/judged.h"
+
+#include "exact_reference/solve.h"
+#include "studies/compare/error_measures.h"
+
+namespace studies {
+
+Judged judged(const scene::Scene& scene, const scene::Equilibrium& answer, double allowed, bool ask_exact,
+              const JudgeTolerances& tolerances) {
+  Judged result;
+  result.certificate = exact_reference::certify(scene, answer, tolerances.certificate);
+  result.position = result.certificate.position;
+  result.tip = result.certificate.tip_position;
+  if (!ask_exact && result.certificate.holds(allowed)) return result;
+  result.exact = exact_reference::solve(scene, {exact_reference::RodModel::reissner, tolerances.exact});
+  if (!result.by_exact()) return result;
+  const double length_mm = scene::length_mm(scene);
+  result.position = largest_distance_mm(answer, *result.exact) / length_mm;
+  result.tip = (answer.tip().position_B_mm - result.exact->tip().position_B_mm).norm() / length_mm;
+  return result;
+}
+
+}  // namespace studies

@@ -1,0 +1,31 @@
+// An answer beside the certificate and, where that is not enough, beside the exact reference.
+#pragma once
+
+#include "exact_reference/certificate.h"
+#include "scene/scene.h"
+#include "studies/campaign/tally.h"
+
+#include <optional>
+
+namespace studies {
+
+struct Judged {
+  exact_reference::Certificate certificate;
+  std::optional<scene::Equilibrium> exact;  // where it was asked
+  double position = 0, tip = 0;             // errors over L, by the exact reference where it was asked and converged
+  bool by_exact() const { return exact && exact->converged(); }
+};
+
+// The exact reference resolves 1e-9 L, a certificate's equilibrium this, unless tolerances are given.
+struct JudgeTolerances {
+  double certificate = 1e-7, exact = 1e-9;
+};
+
+// ask_exact: in any case; else where the certificate does not hold `allowed` (over L).
+Judged judged(const scene::Scene& scene, const scene::Equilibrium& answer, double allowed, bool ask_exact,
+              const JudgeTolerances& tolerances = {});
+
+// Errors below this, over L, are the judges' own (promise.h).
+constexpr double judges_error = 3e-9;
+
+}  // namespace studies
