@@ -10,6 +10,7 @@
 #include "studies/registry.h"
 #include "studies/report/output_file.h"
 #include "studies/stability/maps.h"
+#include "studies/sweep/command.h"
 #include "studies/third_party/command.h"
 
 #include <fmt/format.h>
@@ -128,6 +129,9 @@ int main(int argc, char** argv) {
   studies::ExportArguments export_arguments;
   const CLI::App* write_deck = studies::add_export_command(app, export_arguments);
 
+  studies::SweepArguments sweep_arguments;
+  const CLI::App* sweep = studies::add_sweep_command(app, sweep_arguments);
+
   StudyArguments arguments;
   arguments.options.cases = STUDIES_DIR "/cases";
   arguments.options.pages = STUDIES_DIR;
@@ -166,6 +170,7 @@ int main(int argc, char** argv) {
     }
     if (compare->parsed()) return studies::run_compare(compare_arguments);
     if (write_deck->parsed()) return studies::run_export(export_arguments);
+    if (sweep->parsed()) return studies::run_sweep(sweep_arguments, progress);
     if (cell->parsed()) {
       fmt::print("{}", scene::write_scene(studies::cell_scene(map, x, y)));
       return apps::exit_solved;

@@ -9,10 +9,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <iterator>
-#include <set>
 
 namespace studies {
 namespace {
@@ -38,25 +38,24 @@ std::string text_of(const fs::path& path) {
   return text;
 }
 
-// What lies there and is none of this plan's: parts of files, and the last chunk of a shorter campaign.
-void remove_others(const CampaignPlan& plan, const std::set<fs::path>& known) {
-  if (!fs::exists(plan.folder / "chunks")) return;
-  std::vector<fs::path> others;
+// Parts of files, and the shorter last chunk of what was a smaller campaign.
+void remove_leftovers(const CampaignPlan& plan) {
+  if (!fs::is_directory(plan.folder / "chunks")) return;
+  std::vector<fs::path> leftovers;
   for (const auto& entry : fs::recursive_directory_iterator(plan.folder / "chunks")) {
-    if (entry.is_regular_file() && known.count(entry.path()) == 0) others.push_back(entry.path());
+    const std::uint64_t from = std::strtoull(entry.path().filename().c_str(), nullptr, 10);
+    const bool of_plan = from < plan.items && entry.path() != path_of(plan, from);
+    if (entry.is_regular_file() && (entry.path().extension() != ".csv" || of_plan)) leftovers.push_back(entry.path());
   }
-  for (const fs::path& path : others) fs::remove(path);
+  for (const fs::path& path : leftovers) fs::remove(path);
 }
 
 std::vector<std::uint64_t> missing_chunks(const CampaignPlan& plan) {
+  remove_leftovers(plan);
   std::vector<std::uint64_t> missing;
-  std::set<fs::path> known;
   for (std::uint64_t from = 0; from < plan.items; from += plan.chunk) {
-    const fs::path path = path_of(plan, from);
-    if (fs::exists(path)) known.insert(path);
-    else missing.push_back(from);
+    if (!fs::exists(path_of(plan, from))) missing.push_back(from);
   }
-  remove_others(plan, known);
   return missing;
 }
 
