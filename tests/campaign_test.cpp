@@ -81,8 +81,10 @@ void start_and_kill(const std::string& command, const fs::path& folder, std::siz
     _exit(127);
   }
   const std::size_t before = chunks_in(folder);
-  for (int wait = 0; wait < 30'000 && chunks_in(folder) < before + chunks; ++wait)
+  while (chunks_in(folder) < before + chunks) {
+    if (waitpid(child, nullptr, WNOHANG) != 0) return;  // through before it could be killed
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
   std::this_thread::sleep_for(std::chrono::milliseconds(later_ms));
   const std::vector<pid_t> workers = workers_of(child);
   if (!one_rank) kill(child, SIGKILL);

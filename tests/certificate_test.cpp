@@ -37,7 +37,7 @@ TEST(Certificate, TellsTheDistanceFromTheExactShape) {
     ++certified;
     EXPECT_NEAR(certificate.position, studies::largest_distance_mm(answer, exact) / length_mm, 3e-5) << index;
   }
-  EXPECT_GE(certified, 80);  // of 100; 9X when this was written: others are doubted and asked of the exact reference
+  EXPECT_GE(certified, 85);  // of 100; 89 when this was written: the others are doubted, or have no answer
 }
 
 TEST(Certificate, SeesAStifferRod) {

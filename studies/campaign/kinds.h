@@ -2,9 +2,10 @@
 #pragma once
 
 #include "studies/campaign/tally.h"
+#include "studies/report/progress.h"
 
 #include <cstdint>
-#include <functional>
+#include <filesystem>
 #include <span>
 #include <string>
 
@@ -24,5 +25,15 @@ struct CampaignKind {
 // shape     a kept solver's poses and wrenches anywhere along the rod.
 // batch     16 rods of a scene by fam::solve_batch, each beside a cold Solver.
 std::span<const CampaignKind> campaign_kinds();
+const CampaignKind& campaign_kind(const std::string& name);
+
+struct CampaignSize {
+  std::uint64_t scenes = 0, seed = 0, chunk = 100;
+};
+
+// All scenes 0 .. scenes - 1 by the processes at hand, their chunks, tables and scenes in the folder (engine.h,
+// summary.h). The tally of all; empty in processes that do not lead and where one of the others failed.
+Tally run_campaign(const CampaignKind& kind, const CampaignSize& size, const std::filesystem::path& folder,
+                   Progress::Style style);
 
 }  // namespace studies

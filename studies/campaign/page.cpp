@@ -1,0 +1,156 @@
+#include "studies/report/page.h"
+#include "studies/campaign/data.h"
+#include "studies/campaign/summary.h"
+#include "studies/report/chart.h"
+#include "studies/report/table.h"
+#include "studies/scenes/random_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace studies {
+namespace {
+
+std::uint64_t starting_with(const Tally& tally, const std::string& words, const std::string& kind = {}) {
+  std::uint64_t sum = 0;
+  for (const auto& [key, n] : tally.counts()) {
+    if (key.second.rfind(words, 0) == 0 && (kind.empty() || key.first == kind)) sum += n;
+  }
+  return sum;
+}
+
+std::string share(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? "–" : fmt::format("{:.2f} %", 100 * static_cast<double>(part) / static_cast<double>(whole));
+}
+
+std::string bound_text(std::uint64_t found, std::uint64_t asked) {
+  return for_reader(fmt::format("{:.1e}", rate_bound(found, asked)));
+}
+
+const std::vector<std::pair<std::string, std::string>>& outcomes_of_random() {
+  static const std::vector<std::pair<std::string, std::string>> words{
+      {"certified: the only equilibrium", "certified, the only equilibrium"},
+      {"certified: signs of the branch", "certified, signs of the branch"},
+      {"right", "right by the exact reference"},
+      {"tolerance missed", "tolerance missed"},
+      {"wrong but flagged", "wrong but flagged"},
+      {"wrong and silent", "wrong and silent"},
+      {"no judge", "no judge"},
+      {"no answer", "no answer"},
+      {"no answer but exact", "of these the exact reference has one"}};
+  return words;
+}
+
+Table outcomes_table(const Tally& random) {
+  std::vector<std::string> kinds{"general", "buckling"};
+  kinds.insert(kinds.end(), families.begin(), families.end());
+  std::vector<std::string> head{"kind of scene", "scenes"};
+  for (const auto& [words, name] : outcomes_of_random()) head.push_back(name);
+  Table table(head);
+  kinds.push_back("");
+  for (const std::string& kind : kinds) {
+    std::vector<std::string> cells{kind.empty() ? "all" : kind, std::to_string(starting_with(random, "", kind))};
+    for (const auto& [words, name] : outcomes_of_random())
+      cells.push_back(std::to_string(starting_with(random, words, kind)));
+    table.add(cells);
+  }
+  return table;
+}
+
+Table audit_table(const Tally& audit) {
+  Table table(
+      {"answers of", "judged", "not right, doubted", "not right, certified", "right, certified", "right, doubted"});
+  for (const std::string who : {"FAM", "FAM on few arcs", "plain shooting"}) {
+    const auto n = [&](const std::string& outcome) { return starting_with(audit, outcome, who); };
+    const std::uint64_t wrong_doubted = n("doubted; not right"), wrong_certified = n("certified; not right"),
+                        certified = n("certified; right"), doubted = n("doubted; right");
+    table.add({who, std::to_string(wrong_doubted + wrong_certified + certified + doubted),
+               std::to_string(wrong_doubted), std::to_string(wrong_certified), std::to_string(certified),
+               std::to_string(doubted)});
+  }
+  return table;
+}
+
+Table worst_table(const Tally& random, std::size_t rows) {
+  Table table({"measure", "value", "kind of scene", "seed"});
+  for (const auto& [measure, list] : random.worst()) {
+    std::size_t k = 0;
+    for (const Tally::Worst& w : list) {
+      if (k++ == rows) break;
+      table.add({measure, scientific(w.value, 1), w.kind, std::to_string(campaign_seed(1, w.index))});
+    }
+  }
+  return table;
+}
+
+std::string picture(const Tally& random) {
+  const auto found = random.histograms().find("position");
+  std::map<int, std::uint64_t> bins;
+  if (found != random.histograms().end()) bins = found->second;
+  double most = 1;
+  for (const auto& [bin, n] : bins) most = std::max(most, static_cast<double>(n));
+  constexpr double low = 1e-14, high = 1;
+  Svg svg(700, 430, "How far from the exact rod?", "A histogram of errors over half decades.",
+          "answers of fam solve to random scenes, asked for 1e-4 of the length");
+  Panel panel(svg, {86, 66}, 560, 300, {"largest error of any place, over L", low, high, true},
+              {"scenes in half a decade", 0.5, 3 * most, true});
+  panel.frame();
+  for (const auto& [bin, n] : bins) {
+    const double from = std::max(std::pow(10, bin / 2.0), low), to = std::pow(10, (bin + 1) / 2.0);
+    if (to <= low || from >= high) continue;
+    const auto y = static_cast<double>(n);
+    panel.curve({{from, 0.5}, {from, y}, {to, y}, {to, 0.5}}, {colour::blue, 1.8, ""});
+  }
+  panel.curve({{1e-4, 0.5}, {1e-4, 2 * most}}, {colour::orange, 1.4, "5 4"});
+  panel.name({1e-4, 1.6 * most}, "asked for", colour::orange);
+  panel.curve({{1e-2, 0.5}, {1e-2, 2 * most}}, {colour::black, 1.4, "5 4"});
+  panel.name({1e-2, 1.6 * most}, "wrong", colour::black);
+  panel.place_names();
+  return svg.str();
+}
+
+}  // namespace
+
+std::map<std::string, std::string> campaign_files(const CampaignData& data, const std::filesystem::path& page_md) {
+  const Tally& random = data.random;
+  const std::uint64_t scenes = random.scenes(), no_answer = starting_with(random, "no answer"),
+                      no_judge = starting_with(random, "no judge"), judged = scenes - no_answer - no_judge,
+                      silent = starting_with(random, "wrong and silent"),
+                      certified = starting_with(random, "certified"),
+                      missed = starting_with(random, "tolerance missed"),
+                      flagged = starting_with(random, "wrong but flagged");
+  const std::uint64_t audited = starting_with(data.audit, "certified; r") + starting_with(data.audit, "certified; n") +
+                                starting_with(data.audit, "doubted; r") + starting_with(data.audit, "doubted; n"),
+                      escaped = starting_with(data.audit, "certified; not right"),
+                      not_right = starting_with(data.audit, "doubted; not right") + escaped;
+  Page page;
+  const auto set = [&](const char* name, std::uint64_t n) { page.set(name, std::to_string(n)); };
+  set("scenes", scenes), set("judged", judged), set("silent", silent), set("missed", missed), set("flagged", flagged);
+  set("no_answer", no_answer), set("no_judge", no_judge), set("escaped", escaped), set("not_right", not_right);
+  set("audited", audited);
+  set("lost", starting_with(random, "no answer but exact"));
+  set("failures_judged", starting_with(random, "no answer but exact") + starting_with(random, "no answer nor exact"));
+  page.set("silent_bound", bound_text(silent, judged));
+  page.set("escaped_bound", bound_text(escaped, not_right));
+  page.set("certified_share", share(certified, judged));
+  page.set("no_answer_share", share(no_answer, scenes));
+  page.set("outcomes", outcomes_table(random).markdown());
+  page.set("audit", audit_table(data.audit).markdown());
+  page.set("worst", worst_table(random, 2).markdown());
+  page.set_time("timing", data.timing);
+  const std::string answer =
+      fmt::format("of {} judged answers to {} random scenes {} are wrong without saying so (rate below {} at 95 %)",
+                  judged, scenes, silent, bound_text(silent, judged));
+  return {{"random.csv", random.text()},
+          {"audit.csv", data.audit.text()},
+          {"first.csv", data.first.text()},
+          {"outcomes.csv", outcomes_table(random).csv()},
+          {"audit_counts.csv", audit_table(data.audit).csv()},
+          {"errors.svg", picture(random)},
+          {"README.md", page.fill(page_md)},
+          {answers_file, answers_json({{"million", answer}})}};
+}
+
+}  // namespace studies
