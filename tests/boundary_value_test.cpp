@@ -1,7 +1,7 @@
 // Fixed, mixed, distributed loads and gravity: the boundary value problem over the arcs against the exact reference.
-#include "fam/boundary_value.h"
 #include "allocation_counter.h"
 #include "exact_reference/solve.h"
+#include "fam/boundary_value.h"
 #include "scene/scene_file.h"
 #include "scene/span_facts.h"
 #include "support.h"

@@ -1,8 +1,8 @@
 // Tables, pictures, error measures, files.
-#include "studies/compare/error_measures.h"
-#include "studies/compare/stopwatch.h"
 #include "studies/report/chart.h"
+#include "studies/compare/error_measures.h"
 #include "studies/report/output_file.h"
+#include "studies/compare/stopwatch.h"
 #include "studies/report/table.h"
 
 #include <gtest/gtest.h>

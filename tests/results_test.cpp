@@ -106,7 +106,8 @@ TEST(Results, AreWhatTheStudyWrites) {
   std::string as_command = study;
   std::replace(as_command.begin(), as_command.end(), '_', '-');
   const fs::path folder = fs::temp_directory_path() / ("fam_results_test_" + std::to_string(getpid()));
-  const std::string command = FAM_STUDIES_COMMAND " " + as_command + " --quick --quiet --output " + folder.string();
+  const std::string command =
+      FAM_STUDIES_COMMAND " " + as_command + " --quick --quiet --output " + folder.string();
   ASSERT_EQ(std::system(command.c_str()), 0);
   int compared = 0;
   for (const auto& entry : fs::directory_iterator(fs::path(RESULTS_DIR) / study)) {

@@ -3,10 +3,10 @@
 #include "exact_reference/elastica.h"
 #include "exact_reference/solve.h"
 
-#include <gtest/gtest.h>
 #include "studies/segmentation/ablation.h"
 #include "support.h"
 #include "support_fam.h"
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <optional>
