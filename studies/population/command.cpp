@@ -11,16 +11,16 @@
 namespace studies {
 namespace {
 
-constexpr double default_rounding_mm = 0.005;  // two decimals
 constexpr int most_cases = 1000;
 
 double positive(const scene::JsonNode& node) {
   const double value = node.number();
-  if (!(value > 0) || !std::isfinite(value)) node.refuse("must be > 0");
+  if (!(value > 0)) node.refuse("must be > 0");
+  if (!(value >= 1e-6 && value <= 1e12)) node.refuse("must be from 1e-6 to 1e12");
   return value;
 }
 
-int cases_in(const scene::JsonNode& node) {
+int case_count_in(const scene::JsonNode& node) {
   const int value = node.whole_number();
   if (value < 2 || value > most_cases) node.refuse("must be a whole number from 2 to " + std::to_string(most_cases));
   return value;
@@ -37,9 +37,10 @@ PopulationRod rod_in(const scene::JsonNode& node) {
   set("diameter_mm", rod.diameter_mm);
   set("planar_bending_Nmm2", rod.planar_bending_Nmm2);
   set("spatial_bending_Nmm2", rod.spatial_bending_Nmm2);
-  if (rod.diameter_mm > rod.length_mm / 2) node.refuse("must be a rod: diameter_mm at most half of length_mm");
-  if (node.has("planar_cases")) rod.planar_cases = cases_in(node.at("planar_cases"));
-  if (node.has("spatial_cases")) rod.spatial_cases = cases_in(node.at("spatial_cases"));
+  if (!(rod.diameter_mm <= rod.length_mm / 4 && rod.diameter_mm >= rod.length_mm / 1000))
+    node.refuse("must be a rod: length_mm from 4 to 1000 times diameter_mm");
+  if (node.has("planar_cases")) rod.planar_cases = case_count_in(node.at("planar_cases"));
+  if (node.has("spatial_cases")) rod.spatial_cases = case_count_in(node.at("spatial_cases"));
   return rod;
 }
 
@@ -93,7 +94,8 @@ PrintedStudy study_in(const scene::JsonNode& root) {
   PrintedStudy study;
   if (root.has("title")) study.title = root.at("title").string();
   if (root.has("rod")) study.rod = rod_in(root.at("rod"));
-  const double rounding_mm = root.has("rounding_mm") ? positive(root.at("rounding_mm")) : default_rounding_mm;
+  if (root.has("rounding_mm")) study.rounding_mm = positive(root.at("rounding_mm"));
+  const double rounding_mm = study.rounding_mm;
   const scene::JsonNode rows = root.at("rows");
   if (rows.items().empty()) rows.refuse("must hold a row at least");
   for (const scene::JsonNode& row : rows.items()) read_row(row, rounding_mm, study);

@@ -7,25 +7,22 @@
 namespace studies {
 namespace {
 
-// Below it an error is round-off of a print.
-constexpr double least_error_mm = 1e-4;
-
 // Which of a row's numbers are asked for; the size is the MAE, or the RMS.
 struct RowUse {
   bool size, mean, ratio;
-  Statistic size_of;
+  Statistic size_statistic;
 };
 
 RowUse use_of(const Targets& targets, std::size_t row) {
-  const bool has_mae = targets[place_of(row, mean_absolute)].has_value();
-  const bool has_rms = targets[place_of(row, root_mean_square)].has_value();
-  const bool has_mean = targets[place_of(row, mean_error)].has_value();
+  const bool has_mae = targets.of[place_of(row, mean_absolute)].has_value();
+  const bool has_rms = targets.of[place_of(row, root_mean_square)].has_value();
+  const bool has_mean = targets.of[place_of(row, mean_error)].has_value();
   return {has_mae || has_rms, (has_mae || has_rms) && has_mean, has_mae && has_rms,
           has_mae ? mean_absolute : root_mean_square};
 }
 
-double log_of(double error_mm) {
-  return std::log(std::max(error_mm, least_error_mm));
+double log_of(double error_mm, const Targets& targets) {
+  return std::log(std::max(error_mm, targets.least_error_mm));
 }
 
 // visit(interval) of each feature, in their order.
@@ -34,18 +31,18 @@ void for_features(const Targets& targets, Visit&& visit) {
   for (std::size_t row = 0; row < row_count; ++row) {
     const RowUse use = use_of(targets, row);
     if (!use.size) continue;
-    const Interval size = *targets[place_of(row, use.size_of)];
-    const double low = std::max(size.low, least_error_mm), high = std::max(size.high, least_error_mm);
+    const Interval size = *targets.of[place_of(row, use.size_statistic)];
+    const double low = std::max(size.low, targets.least_error_mm), high = std::max(size.high, targets.least_error_mm);
     visit(Interval{std::log(low), std::log(high)});
     if (use.mean) {
-      const Interval m = *targets[place_of(row, mean_error)];
+      const Interval m = *targets.of[place_of(row, mean_error)];
       const double least = std::min(m.low / low, m.low / high), most = std::max(m.high / low, m.high / high);
       visit(Interval{std::clamp(least, -1., 1.), std::clamp(most, -1., 1.)});
     }
     if (use.ratio) {
-      const Interval rms = *targets[place_of(row, root_mean_square)];
-      const double least = std::max(log_of(rms.low) - std::log(high), 0.);
-      visit(Interval{least, std::max(log_of(rms.high) - std::log(low), least)});
+      const Interval rms = *targets.of[place_of(row, root_mean_square)];
+      const double least = std::max(log_of(rms.low, targets) - std::log(high), 0.);
+      visit(Interval{least, std::max(log_of(rms.high, targets) - std::log(low), least)});
     }
   }
 }
@@ -57,10 +54,10 @@ Eigen::VectorXd features_of(const StatisticVector& set, const Targets& targets) 
   for (std::size_t row = 0; row < row_count; ++row) {
     const RowUse use = use_of(targets, row);
     if (!use.size) continue;
-    const double size = std::max(set[place_of(row, use.size_of)], least_error_mm);
+    const double size = std::max(set[place_of(row, use.size_statistic)], targets.least_error_mm);
     features.push_back(std::log(size));
     if (use.mean) features.push_back(set[place_of(row, mean_error)] / size);
-    if (use.ratio) features.push_back(log_of(set[place_of(row, root_mean_square)]) - std::log(size));
+    if (use.ratio) features.push_back(log_of(set[place_of(row, root_mean_square)], targets) - std::log(size));
   }
   return Eigen::Map<Eigen::VectorXd>(features.data(), static_cast<Eigen::Index>(features.size()));
 }

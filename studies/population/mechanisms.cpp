@@ -29,8 +29,8 @@ ProgramSlips coarse_search(double tolerance, Search search = Search::bisection) 
 
 void add_arcs(std::vector<Mechanism>& m) {
   for (const int arcs : {1, 2, 3, 4, 5, 6, 8, 12, 20, 50, 100})
-    m.push_back({"arcs_" + std::to_string(arcs), "number of arcs", std::to_string(arcs) + " arcs, bent first",
-                 follower_fe, arcs});
+    m.push_back({"arcs_" + std::to_string(arcs), "number of arcs",
+                 std::to_string(arcs) + (arcs == 1 ? " arc" : " arcs") + ", bent first", follower_fe, arcs});
 }
 
 void add_single(std::vector<Mechanism>& m) {

@@ -17,8 +17,12 @@ namespace {
 
 using Rows = std::vector<DataRow>;
 
+// Of a mechanism's sets, beyond what is printed of one statistic alone: hardly any.
+constexpr double out_of_reach = 0.001;
+
 struct Standing {
   const Mechanism* mechanism;
+  int unreached = 0;                        // statistics
   std::map<std::string, DataRow> by_prior;  // and "all"
 
   const std::string& verdict(const std::string& prior) const { return by_prior.at(prior).at("verdict"); }
@@ -37,9 +41,14 @@ struct Standing {
 
 std::vector<Standing> standings_in(const std::filesystem::path& folder) {
   std::vector<Standing> standings;
-  for (const Mechanism& m : all_mechanisms()) standings.push_back({&m, {}});
+  for (const Mechanism& m : all_mechanisms()) standings.push_back({&m, 0, {}});
   for (const DataRow& row : data_rows(folder / "verdicts.csv"))
     standings[mechanism_at(row.at("mechanism"))].by_prior[row.at("prior")] = row;
+  for (const DataRow& row : data_rows(folder / "distributions.csv")) {
+    const double rarer =
+        1 - std::max(std::stod(row.at("share_below_printed")), std::stod(row.at("share_above_printed")));
+    standings[mechanism_at(row.at("mechanism"))].unreached += rarer < out_of_reach;
+  }
   return standings;
 }
 
@@ -61,18 +70,18 @@ std::string share_percent(double share) {
 
 std::string verdict_table(const std::vector<Standing>& standings) {
   Table table({"mechanism", "FAM", "FE", "all sets", "load", "deflection", "round", "own sets farther, %",
-               "nearest set, % off"});
+               "nearest set, % off", "out of reach"});
   for (const Standing& s : standings) {
     const DataRow& all = s.by_prior.at("all");
     const auto shown = [&](const std::string& prior) { return s.excluded(prior) ? "**excluded**" : s.verdict(prior); };
     table.add({"`" + s.mechanism->key + "`", s.mechanism->fam, s.mechanism->fe, shown("all"), shown("load"),
                shown("deflection"), shown("round"), share_percent(std::stod(all.at("share_farther"))),
-               fmt::format("{:.0f}", 100 * s.nearest())});
+               fmt::format("{:.0f}", 100 * s.nearest()), std::to_string(s.unreached)});
   }
   return table.markdown();
 }
 
-std::string trend_table(const Rows& trends) {
+std::string trends_table(const Rows& trends) {
   Table table({"mechanism", "under 3 mm", "least near 12", "rises", "all three", "grows with torque"});
   for (const DataRow& row : trends) {
     const double sets = std::stod(row.at("sets"));
@@ -122,6 +131,9 @@ void set_beam(Page& page, const Rows& cases, const Rows& statistics) {
     sets.insert(row.at("set"));
     largest_difference = std::max(largest_difference, std::stod(row.at("difference_mm")));
   }
+  page.check("beam_agrees",
+             solved == static_cast<int>(cases.size()) && largest < beam_limit_mm && largest_difference < beam_limit_mm);
+  page.set("beam_limit", for_reader(scientific(beam_limit_mm, 0)));
   page.set("beam_cases", std::to_string(cases.size()));
   page.set("beam_solved", std::to_string(solved));
   page.set("beam_largest", for_reader(scientific(largest, 1)));
@@ -135,6 +147,7 @@ void set_verdicts(Page& page, const std::vector<Standing>& standings) {
   const auto fits = [](const Standing& s) { return s.verdict("all") == "fits"; };
   const auto strained = [](const Standing& s) { return s.verdict("all") == "strained"; };
   page.set("mechanisms", std::to_string(standings.size()));
+  page.set("unreached", keys_where(standings, [](const Standing& s) { return s.unreached > 0; }));
   page.set("out_count", std::to_string(count_where(standings, out)));
   page.set("out", keys_where(standings, out));
   page.set("pooled_out", keys_where(standings, pooled));
@@ -172,11 +185,11 @@ TextFiles population_page(const std::filesystem::path& folder, const std::filesy
   set_verdicts(page, standings);
   set_twins(page, data_rows(folder / "twins.csv"));
   set_beam(page, data_rows(folder / "beam_cases.csv"), data_rows(folder / "beam_statistics.csv"));
-  page.set("sets", std::to_string(population_sets));
+  page.set("sets", fmt::format("{} {:03}", population_sets / 1000, population_sets % 1000));
   page.set("trend_sets", std::to_string(trend_sets));
   page.set("bound", for_reader(scientific(3. / static_cast<double>(population_sets), 0)));
   page.set("verdict_table", verdict_table(standings));
-  page.set("trend_table", trend_table(trends));
+  page.set("trend_table", trends_table(trends));
   page.set("trend_keys", with_trend(trends, standings, "all_three", 0.05));
   page.set("torque_keys", with_trend(trends, standings, "grows_with_torque", 0.5));
   long redrawn = 0, cases = 0;

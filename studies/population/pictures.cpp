@@ -47,14 +47,14 @@ class ErrorScale {
   bool is_signed_;
 };
 
-std::string words_of(const std::string& statistic) {
+std::string spaced(const std::string& statistic) {
   std::string words = statistic;
   std::replace(words.begin(), words.end(), '_', ' ');
   return words;
 }
 
 std::string picture_of(std::size_t place, const std::vector<PrintSpread>& spreads, const Interval& taken) {
-  const std::string title = words_of(statistic_name(place)) + ": what each mechanism gives";
+  const std::string title = spaced(statistic_name(place)) + ": what each mechanism gives";
   const double bottom = first_row_px + row_px * static_cast<double>(spreads.size());
   Svg svg(860, bottom + 50, title, "For each mechanism the spread of the statistic over all sets of loads.",
           "line: 95 % of the sets, bar: half of them, dot: median; orange: printed (a band: both readings)");
@@ -93,7 +93,7 @@ std::string matrix(const std::map<std::string, std::vector<PrintSpread>>& spread
           "share of sets, in %, on the rarer side of the printed value; dark: hardly any");
   for (std::size_t k = 0; k < statistic_count; ++k) {
     const double x = left + cell * static_cast<double>(k);
-    svg.text({x + cell / 2 + 4, top - 10}, words_of(statistic_name(k)), Anchor::start, 11, "#222", -60);
+    svg.text({x + cell / 2 + 4, top - 10}, spaced(statistic_name(k)), Anchor::start, 11, "#222", -60);
     const std::vector<PrintSpread>& column = spreads.at(statistic_name(k));
     for (std::size_t m = 0; m < rows; ++m) {
       const double y = top + row_px * static_cast<double>(m), share = rarer_side(column[m]);

@@ -36,7 +36,9 @@ TextFiles committed_files(const StudyOptions& options) {
   files["printed.csv"] = printed_csv(printed, reconciled(printed));
   for (const char* name : {"verdicts.csv", "distributions.csv", "redrawn.csv", "twins.csv", "trends.csv",
                            "beam_cases.csv", "beam_statistics.csv"}) {
-    std::ifstream file(options.committed / "population" / name);
+    const std::filesystem::path path = options.committed / "population" / name;
+    std::ifstream file(path);
+    if (!file) throw scene::SceneError(path.string() + ": cannot be read; --quick needs the committed run");
     files[name] = std::string(std::istreambuf_iterator<char>(file), {});
   }
   return files;

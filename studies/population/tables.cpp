@@ -67,8 +67,8 @@ std::string distributions_csv(const PopulationSample& sample, const Targets& tar
         const auto count = std::count_if(values.begin(), values.end(), is);
         return fixed(static_cast<double>(count) / static_cast<double>(values.size()), 4);
       };
-      row.push_back(share_where([&](double v) { return v < targets[i]->low; }));
-      row.push_back(share_where([&](double v) { return v > targets[i]->high; }));
+      row.push_back(share_where([&](double v) { return v < targets.of[i]->low; }));
+      row.push_back(share_where([&](double v) { return v > targets.of[i]->high; }));
       table.add(row);
     }
   }
@@ -135,7 +135,7 @@ std::string printed_csv(const PrintedStudy& study, const Targets& targets) {
   Table table({"statistic", "printed_low_mm", "printed_high_mm", "taken_low_mm", "taken_high_mm"});
   for (std::size_t i = 0; i < statistic_count; ++i) {
     table.add({statistic_name(i), four_digits(study.printed[i]->low), four_digits(study.printed[i]->high),
-               four_digits(targets[i]->low), four_digits(targets[i]->high)});
+               four_digits(targets.of[i]->low), four_digits(targets.of[i]->high)});
   }
   return table.csv({"Printed statistics within their rounding, and the intervals taken, which cover both readings."});
 }

@@ -25,7 +25,7 @@ void widen(std::optional<Interval>& reading, double low, double high) {
   reading->high = std::max(reading->high, high);
 }
 
-Interval size_of(const Interval& i) {
+Interval magnitude_of(const Interval& i) {
   const double a = std::abs(i.low), b = std::abs(i.high);
   return {i.low <= 0 && i.high >= 0 ? 0 : std::min(a, b), std::max(a, b)};
 }
@@ -34,14 +34,14 @@ Interval size_of(const Interval& i) {
 void widen_rms(std::optional<Interval>& rms, const std::optional<Interval>& mean, const std::optional<Interval>& spread,
                double least_share) {
   if (!mean || !spread) return;
-  const Interval m = size_of(*mean);
+  const Interval m = magnitude_of(*mean);
   widen(rms, std::hypot(m.low, std::sqrt(least_share) * spread->low), std::hypot(m.high, spread->high));
 }
 
 void widen_spread(std::optional<Interval>& spread, const std::optional<Interval>& mean,
                   const std::optional<Interval>& rms, double least_share) {
   if (!mean || !rms || !spread) return;
-  const Interval m = size_of(*mean);
+  const Interval m = magnitude_of(*mean);
   const auto squared = [](double a, double b) { return std::max(a * a - b * b, 0.0); };
   widen(spread, std::sqrt(squared(rms->low, m.high)), std::sqrt(squared(rms->high, m.low) / least_share));
 }
@@ -104,16 +104,16 @@ PrintedStudy printed_study1() {
 }
 
 Targets reconciled(const PrintedStudy& study) {
-  Targets targets = study.printed;
+  Targets targets{study.printed, study.rounding_mm};
   for (std::size_t row = 0; row < row_count; ++row) {
     const int cases = is_planar_row(row) ? study.rod.planar_cases : study.rod.spatial_cases;
     const double least_share = (cases - 1.) / cases;
     const auto given = [&](Statistic statistic) { return study.printed[place_of(row, statistic)]; };
-    std::optional<Interval>& rms = targets[place_of(row, root_mean_square)];
+    std::optional<Interval>& rms = targets.of[place_of(row, root_mean_square)];
     widen_rms(rms, given(mean_error), given(deviation), least_share);
     widen_rms(rms, given(mean_absolute), given(absolute_deviation), least_share);
-    widen_spread(targets[place_of(row, deviation)], given(mean_error), rms, least_share);
-    widen_spread(targets[place_of(row, absolute_deviation)], given(mean_absolute), rms, least_share);
+    widen_spread(targets.of[place_of(row, deviation)], given(mean_error), rms, least_share);
+    widen_spread(targets.of[place_of(row, absolute_deviation)], given(mean_absolute), rms, least_share);
   }
   return targets;
 }
@@ -121,8 +121,8 @@ Targets reconciled(const PrintedStudy& study) {
 double largest_deviation(const StatisticVector& set, const Targets& targets) {
   double largest = 0;
   for (std::size_t i = 0; i < statistic_count; ++i) {
-    if (!targets[i]) continue;
-    const double nearest = std::clamp(set[i], targets[i]->low, targets[i]->high);
+    if (!targets.of[i]) continue;
+    const double nearest = std::clamp(set[i], targets.of[i]->low, targets.of[i]->high);
     if (set[i] != nearest) largest = std::max(largest, std::abs(set[i] - nearest) / std::abs(nearest));
   }
   return largest;

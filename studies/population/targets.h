@@ -32,6 +32,7 @@ struct Interval {
 struct PrintedStudy {
   std::string title;
   PopulationRod rod;
+  double rounding_mm = 0.005;  // two decimals
   std::array<std::optional<Interval>, statistic_count> printed;
 };
 PrintedStudy printed_study1();  // the paper's (study1/printed.h), within their rounding
@@ -39,7 +40,10 @@ PrintedStudy printed_study1();  // the paper's (study1/printed.h), within their 
 // What a set is asked to have: as printed, but where a row contradicts itself its SD, its SD of |e| and its RMS reach
 // over all readings: the printed one, and those that follow from the others by RMS^2 = mean^2 + k SD^2 = MAE^2 + k
 // SD|e|^2 with k = (n - 1)/n or 1. Where no RMS is given but one follows, it is added.
-using Targets = std::array<std::optional<Interval>, statistic_count>;
+struct Targets {
+  std::array<std::optional<Interval>, statistic_count> of;
+  double least_error_mm = 0.005;  // smaller ones print as none
+};
 Targets reconciled(const PrintedStudy& study);
 
 // The largest deviation from the nearest value asked for, over that value: 0.2 where all are within 20 %.
