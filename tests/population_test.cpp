@@ -189,6 +189,21 @@ TEST_F(TracedBack, OtherErrorsAreExcluded) {
   EXPECT_EQ(judge_print(sets, reconciled(as_printed(alike))).verdict, PrintVerdict::excluded);
 }
 
+// Of intervals that hold two sets, the nearest point is no farther than either.
+TEST_F(TracedBack, IntervalsCountByTheirNearestPoint) {
+  const std::vector<StatisticVector> sets = sample().sets_of(mechanism_at("arcs_12"));
+  const Targets any = reconciled(printed_study1());
+  const SetCloud cloud(sets, any);
+  for (std::size_t i = 0; i + 1 < 200; ++i) {
+    Targets both;
+    for (std::size_t k = 0; k < statistic_count; ++k)
+      both.of[k] = Interval{std::min(sets[i][k], sets[i + 1][k]), std::max(sets[i][k], sets[i + 1][k])};
+    const double nearest = cloud.distance_of(both);
+    EXPECT_LE(nearest, cloud.distance(features_of(sets[i], any)) + 1e-9) << i;
+    EXPECT_LE(nearest, cloud.distance(features_of(sets[i + 1], any)) + 1e-9) << i;
+  }
+}
+
 // Whatever thread takes which set.
 TEST_F(TracedBack, RepeatsToTheBit) {
   const PopulationSample again = sample_population(rod, 30, Progress::Style::quiet);
@@ -226,6 +241,14 @@ TEST(PopulationCommand, WrongStatisticsAreRefusedInOneLine) {
     EXPECT_EQ(refused.err.rfind("printed.json: ", 0), 0U) << refused.err;
     EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
   }
+}
+
+TEST(PopulationCommand, PageSaysHowManySets) {
+  const std::string page = commands::contents(std::string(TEST_DATA_DIR) + "/../../docs/population.md");
+  EXPECT_EQ(population_sets, 10'000U);
+  EXPECT_NE(page.find("10 000"), std::string::npos);
+  EXPECT_NE(page.find("| 0.005: two decimals |"), std::string::npos);
+  EXPECT_EQ(PrintedStudy().rounding_mm, 0.005);
 }
 
 // Errors of a micrometre are none of a program without torsion.

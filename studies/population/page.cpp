@@ -105,16 +105,16 @@ std::string with_trend(const Rows& trends, const std::vector<Standing>& standing
 
 void set_twins(Page& page, const Rows& twins) {
   int traced = 0;
-  std::vector<double> left;
+  std::vector<double> remaining;
   for (const DataRow& row : twins) {
     traced += row.at("traced_back") == "1";
-    left.push_back(std::stod(row.at("mechanisms_left")));
+    remaining.push_back(std::stod(row.at("mechanisms_left")));
   }
   page.set("trials", std::to_string(twins.size()));
   page.set("traced", std::to_string(traced));
-  page.set("left_median", fmt::format("{:g}", quantile(left, 0.5)));
-  page.set("left_least", fmt::format("{:g}", *std::min_element(left.begin(), left.end())));
-  page.set("left_most", fmt::format("{:g}", *std::max_element(left.begin(), left.end())));
+  page.set("left_median", fmt::format("{:g}", quantile(remaining, 0.5)));
+  page.set("left_least", fmt::format("{:g}", *std::min_element(remaining.begin(), remaining.end())));
+  page.set("left_most", fmt::format("{:g}", *std::max_element(remaining.begin(), remaining.end())));
   page.check("traced_back", 100 * traced >= 95 * static_cast<int>(twins.size()));
 }
 

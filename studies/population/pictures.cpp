@@ -34,9 +34,10 @@ class ErrorScale {
  public:
   explicit ErrorScale(bool is_signed) : is_signed_(is_signed) {}
   double at(double mm) const {
-    constexpr double left = 300, width = 520, linear_mm = 0.05, most_mm = 30, least_mm = 0.003;
-    if (is_signed_) return left + width * (0.5 + std::asinh(mm / linear_mm) / std::asinh(most_mm / linear_mm) / 2);
-    return left + width * std::log(std::clamp(mm, least_mm, most_mm) / least_mm) / std::log(most_mm / least_mm);
+    constexpr double left_px = 300, width_px = 520, linear_mm = 0.05, most_mm = 30, least_mm = 0.003;
+    if (is_signed_)
+      return left_px + width_px * (0.5 + std::asinh(mm / linear_mm) / std::asinh(most_mm / linear_mm) / 2);
+    return left_px + width_px * std::log(std::clamp(mm, least_mm, most_mm) / least_mm) / std::log(most_mm / least_mm);
   }
   std::vector<double> ticks() const {
     if (is_signed_) return {-10, -1, -0.1, 0, 0.1, 1, 10};
@@ -85,32 +86,33 @@ double rarer_side(const PrintSpread& s) {
 }
 
 std::string matrix(const std::map<std::string, std::vector<PrintSpread>>& spreads) {
-  constexpr double left = 190, top = 170, cell = 24;
+  constexpr double left_px = 190, top_px = 170, cell_px = 24;
   const std::size_t rows = spreads.begin()->second.size();
-  const double width = left + cell * statistic_count + 30, height = top + row_px * static_cast<double>(rows) + 70;
-  Svg svg(width, height, "Where the printed statistics lie among those of each mechanism",
+  const double width_px = left_px + cell_px * statistic_count + 30,
+               height_px = top_px + row_px * static_cast<double>(rows) + 24;
+  Svg svg(width_px, height_px, "Where the printed statistics lie among those of each mechanism",
           "A matrix of mechanisms and statistics.",
           "share of sets, in %, on the rarer side of the printed value; dark: hardly any");
   for (std::size_t k = 0; k < statistic_count; ++k) {
-    const double x = left + cell * static_cast<double>(k);
-    svg.text({x + cell / 2 + 4, top - 10}, spaced(statistic_name(k)), Anchor::start, 11, "#222", -60);
+    const double x = left_px + cell_px * static_cast<double>(k);
+    svg.text({x + cell_px / 2 + 4, top_px - 10}, spaced(statistic_name(k)), Anchor::start, 11, "#222", -60);
     const std::vector<PrintSpread>& column = spreads.at(statistic_name(k));
     for (std::size_t m = 0; m < rows; ++m) {
-      const double y = top + row_px * static_cast<double>(m), share = rarer_side(column[m]);
+      const double y = top_px + row_px * static_cast<double>(m), share = rarer_side(column[m]);
       const bool dark = share < 0.01;
-      svg.rectangle({x, y}, cell - 1, row_px - 1,
+      svg.rectangle({x, y}, cell_px - 1, row_px - 1,
                     share < 0.001   ? "#7a2e00"
                     : dark          ? "#d55e00"
                     : share < 0.025 ? "#f0a877"
                     : share < 0.1   ? "#f9dcc8"
                                     : "#eef4f8");
       const std::string text = share < 0.001 ? "0" : fmt::format("{:.{}f}", 100 * share, share < 0.01 ? 1 : 0);
-      svg.text({x + cell / 2, y + row_px - 5}, text, Anchor::middle, 9.5, dark ? "#fff" : "#222");
+      svg.text({x + cell_px / 2, y + row_px - 5}, text, Anchor::middle, 9.5, dark ? "#fff" : "#222");
     }
   }
   const std::vector<PrintSpread>& names = spreads.begin()->second;
   for (std::size_t m = 0; m < rows; ++m)
-    svg.text({left - 8, top + row_px * static_cast<double>(m) + row_px - 5}, names[m].mechanism, Anchor::end, 11);
+    svg.text({left_px - 8, top_px + row_px * static_cast<double>(m) + row_px - 5}, names[m].mechanism, Anchor::end, 11);
   return svg.str();
 }
 
