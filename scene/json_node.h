@@ -84,6 +84,7 @@ class JsonNode {
     return vector<2>();
   }
 
+  bool is_number() const { return json_.is_number(); }
   bool is_true() const { return json_ == true; }
   bool is_tip() const { return json_ == "tip"; }
 

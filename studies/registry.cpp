@@ -27,6 +27,7 @@ namespace studies {
   row(stream, "How fast is a kept solver on a stream of loads?", "10 s", false) \
   row(batch, "How many rods a second?", "1 min", false) \
   row(third_party, "What does a finite element code say that we did not write?", "2 min", false) \
+  row(population, "What could have made the printed numbers?", "3 min", false) \
   row(limits, "Why is there no answer?", "5 min", true) \
   row(walks, "Does a kept solver stay on its branch?", "15 min", true) \
   row(campaign, "How rarely is an answer wrong, of a million?", "3 h", true) \

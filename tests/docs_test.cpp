@@ -2,7 +2,8 @@
 //
 // Fenced blocks of README.md and docs/*.md, by their info string, in the order of the page, in one scratch folder:
 //   json scene [name]   written to `name` (scene.json); `fam solve` must read and solve it
-//   json path name, json estimation name, json sweep name   written to `name`, for the commands that follow
+//   json path name, json estimation name, json sweep name, json statistic name   written to
+//                       `name`, for the commands that follow
 //   json wrong          `fam solve wrong.json` must refuse it with the line in the `text` block that follows
 //   sh                  each line is run with the programs on PATH; its exit status is 0, or as `# exit status 2` says;
 //                       what they print is compared with the `text` block that follows, if one does; ... in it stands
@@ -73,7 +74,7 @@ class Examples {
     if (block.info.rfind("json scene", 0) == 0) {
       run_scene(block);
     } else if (block.info.rfind("json path ", 0) == 0 || block.info.rfind("json estimation ", 0) == 0 ||
-               block.info.rfind("json sweep ", 0) == 0) {
+               block.info.rfind("json sweep ", 0) == 0 || block.info.rfind("json statistic ", 0) == 0) {
       std::ofstream(folder_ / block.info.substr(block.info.rfind(' ') + 1)) << block.text;
     } else if (block.info == "json wrong") {
       ++wrong;
@@ -419,7 +420,7 @@ TEST_F(Docs, LinksAndPathsExist) {
   for (const std::string name :
        {"README.md", "CONTRIBUTING.md", "docs/scene_format.md", "docs/commands.md", "docs/library.md",
         "docs/paraview.md", "docs/theory.md", "docs/estimation.md", "docs/sweeps.md", "docs/campaigns.md",
-        "docs/frames.svg", "docs/library.svg", "studies/cases/robots/README.md"}) {
+        "docs/population.md", "docs/frames.svg", "docs/library.svg", "studies/cases/robots/README.md"}) {
     ASSERT_TRUE(fs::exists(project / name)) << name;
     const std::string page = contents(project / name);
     const fs::path folder = (project / name).parent_path();
