@@ -33,9 +33,13 @@ bool calculix_is_there() {
 }
 
 ThirdPartyTip solve_by_calculix(const scene::Scene& scene, int elements) {
+  return solve_by_calculix(scene, deck(scene, scene.title, DeckFormat::calculix, elements), elements);
+}
+
+ThirdPartyTip solve_by_calculix(const scene::Scene& scene, const std::string& text, int elements) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("fam_calculix_" + std::to_string(getpid()));
-  write_file(folder / "job.inp", deck(scene, scene.title, DeckFormat::calculix, elements));
+  write_file(folder / "job.inp", text);
   ThirdPartyTip tip{"", calculix_key, elements, "not_converged"};
   int status = 0;
   tip.time_us =
