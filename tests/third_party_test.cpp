@@ -161,13 +161,45 @@ TEST(Deck, CalculixBendsItsRodAsTheExactReference) {
   }
 }
 
-// No increment of such a force holds: what was tried and cut back is no load that was reached.
-TEST(Deck, CalculixReachesNothingOfAForceItCannotBear) {
+// What CalculiX cuts back to nothing is no tip, and has the share of the load that it reached.
+TEST(Deck, CalculixSaysHowFarItCame) {
   if (!studies::calculix_is_there()) GTEST_SKIP() << "ccx is not installed";
-  std::istringstream text(scene_text(tube, force("\"tip\"", "[0,1e9,0]")));
-  const studies::ThirdPartyTip tip = studies::solve_by_calculix(scene::read_scene(text, "scene"), 5);
-  EXPECT_EQ(tip.status, "not_converged");
-  EXPECT_EQ(tip.load_share, 0);
+  const auto pulled_across = [](const char* value_N) {
+    std::istringstream text(scene_text(tube, force("\"tip\"", value_N)));
+    return studies::solve_by_calculix(scene::read_scene(text, "scene"), 5);
+  };
+  const studies::ThirdPartyTip most = pulled_across("[0,100,0]"), none = pulled_across("[0,1e6,0]");
+  EXPECT_EQ(most.status, "not_converged");
+  EXPECT_GT(most.load_share, 0.5);
+  EXPECT_LT(most.load_share, 1);
+  EXPECT_EQ(none.status, "not_converged");
+  EXPECT_EQ(none.load_share, 0);
+}
+
+// Of two scenes that were compared one's tip moves away with more elements; a third was left out.
+TEST(ThirdPartyPage, NamesWhatGrowsAndWhatIsLeftOut) {
+  studies::ThirdPartyData data;
+  data.has_calculix = true;
+  const auto add = [&](const char* name, const char* method, int elements, const char* status, double error_over_L) {
+    data.tips.push_back({name, method, elements, status, 1, Eigen::Vector3d::Zero(), error_over_L, 1});
+  };
+  for (const char* name : {"NEARER", "AWAY", "SPACE"}) add(name, "exact", 0, "converged", 0);
+  add("SPACE", "calculix", 0, "left_out", 0);
+  for (const int n : {5, 10, 20, 40}) {
+    add("NEARER", "calculix", n, "converged", 0.08 / n);
+    add("AWAY", "calculix", n, "converged", 1e-4 * n);
+  }
+  const auto page = [&] {
+    return studies::third_party_files(data, PROJECT_FOLDER "/studies/third_party/page.md").at("README.md");
+  };
+  EXPECT_NE(page().find("It grows on: AWAY."), std::string::npos);
+  EXPECT_NE(page().find("Left out by name: SPACE;"), std::string::npos);
+  EXPECT_NE(page().find("0.0030 L in the median and 0.0040 L at most, on\n2 of the 2 scenes"), std::string::npos);
+  EXPECT_EQ(page().find("cuts its"), std::string::npos);
+  data.tips.back().status = "not_converged";
+  data.tips.back().load_share = 0.25;
+  EXPECT_NE(page().find("AWAY at 25 %"), std::string::npos);
+  EXPECT_NE(page().find("It grows on no scene."), std::string::npos);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace studies {
 
 namespace {
 
-// The load that the last increment reached that was not cut back (the attempts of those end in U).
+// The load that the last increment reached; of an attempt that was cut back (it ends in U), what was reached before.
 double load_share_of(const std::filesystem::path& status_file) {
   std::ifstream lines(status_file);
   double share = 0;
@@ -21,7 +21,7 @@ double load_share_of(const std::filesystem::path& status_file) {
     std::istringstream words(line);
     std::string step, increment, attempt, iterations;
     double time = 0;
-    if (words >> step >> increment >> attempt >> iterations >> time && attempt.back() != 'U') share = time;
+    if (words >> step >> increment >> attempt >> iterations >> time) share = time;
   }
   return share;
 }
