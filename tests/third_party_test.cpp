@@ -194,7 +194,8 @@ TEST(ThirdPartyPage, NamesWhatGrowsAndWhatIsLeftOut) {
   };
   EXPECT_NE(page().find("It grows on: AWAY."), std::string::npos);
   EXPECT_NE(page().find("Left out by name: SPACE;"), std::string::npos);
-  EXPECT_NE(page().find("0.0030 L in the median and 0.0040 L at most, on\n2 of the 2 scenes"), std::string::npos);
+  EXPECT_NE(page().find("0.0030 L from the exact tip in the median and 0.0040 L at most, on\n2 of the 2 scenes"),
+            std::string::npos);
   EXPECT_EQ(page().find("cuts its"), std::string::npos);
   data.tips.back().status = "not_converged";
   data.tips.back().load_share = 0.25;
