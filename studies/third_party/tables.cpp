@@ -95,9 +95,12 @@ std::string abaqus_table(const ThirdPartyData& data) {
 }
 
 std::string convergence_picture(const ThirdPartyData& data) {
+  const bool any_stops = std::any_of(data.tips.begin(), data.tips.end(), [](const ThirdPartyTip& tip) {
+    return tip.method == calculix_key && tip.status == "not_converged";
+  });
   Svg svg(760, 520, "CalculiX: distance of the tip from the exact one", "A curve a scene, both axes logarithmic.",
-          "crosses at the upper edge: CalculiX did not converge");
-  constexpr double most = 1;
+          any_stops ? "crosses at the upper edge: CalculiX did not converge" : "");
+  constexpr double most = 2;
   Panel panel(svg, {80, 66}, 520, 390, {"elements", 4, 50, true}, {"distance / length", 1e-5, most, true});
   panel.frame();
   const std::string* colours[] = {&colour::blue, &colour::orange, &colour::green, &colour::purple, &colour::black};
