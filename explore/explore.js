@@ -1,4 +1,5 @@
-// The page: a scene, its shapes by FAM in two workers (one solves as one drags, one times and looks for the snap).
+// The page: a scene, its shapes by FAM in two workers (one solves as one drags, one times and looks for the snap). What is
+// drawn and told in each frame is the two shapes; all else waits until it is quiet.
 
 const accurateOverL = 1e-9, modelOverL = 1e-3;
 const quietMs = 250;  // after the last change, before the slow questions
@@ -60,7 +61,7 @@ class Explorer {
       this.read(byId("scene-text").value);
     });
     byId("download").addEventListener("click", () => {
-      const url = URL.createObjectURL(new Blob([byId("scene-text").value], {type: "application/json"}));
+      const url = URL.createObjectURL(new Blob([this.text], {type: "application/json"}));
       element("a", {href: url, download: "scene.json"}).click();
       setTimeout(() => URL.revokeObjectURL(url), 1000);
     });
@@ -130,9 +131,9 @@ class Explorer {
     this.editor.show(loads, this.selected);
   }
 
+  // The field with the scene file follows when it is quiet: laying out its text took half of a frame's layout.
   write() {
     this.text = JSON.stringify(this.scene, null, 1);
-    byId("scene-text").value = this.text;
     byId("scene-list").value = "own";
     this.select();
     this.changed();
@@ -176,10 +177,9 @@ class Explorer {
     for (let solved = -1; solved !== this.version;) {
       solved = this.version;
       const text = this.text, length = this.length(), after_snap = this.options().after_snap;
-      const asked = [{tolerance_mm: accurateOverL * length, after_snap}, this.options(), {tolerance_mm: modelOverL * length, after_snap}];
-      const [accurate, compared, model] =
-        await Promise.all(asked.map(options => this.solver.ask("solve", text, JSON.stringify(options))));
-      Object.assign(this, {accurate, compared, model});
+      const asked = [{tolerance_mm: accurateOverL * length, after_snap}, this.options()];
+      const [accurate, compared] = await this.solver.askAll(asked.map(options => ["solve", text, JSON.stringify(options)]));
+      Object.assign(this, {accurate, compared});
       this.draw();
       tell(this);
     }
@@ -187,9 +187,15 @@ class Explorer {
   }
 
   async askSlowly() {
+    if (byId("scene-text").value !== this.text) byId("scene-text").value = this.text;
     const version = this.version, text = this.text, length = this.length(), asked = this.asked();
     if (!this.scene || this.accurate?.error) return;
     const options = [{tolerance_mm: accurateOverL * length}, this.options()];
+    const suffices = {tolerance_mm: modelOverL * length, after_snap: this.options().after_snap};
+    const model = await this.solver.ask("solve", text, JSON.stringify(suffices));
+    if (version !== this.version) return;
+    Object.assign(this, {model, modelOf: asked});
+    tell(this);
     const times_us = [];
     for (const each of options) times_us.push(await this.slow.ask("time_us", text, JSON.stringify(each)));
     if (version !== this.version) return;

@@ -27,16 +27,28 @@ function comparedName({law, arcs, tolerance_mm}) {
   return `compared: ${law === "auto" ? "automatic" : law.replace("_", " ")}, ` + (arcs ? `${arcs} arcs` : `within ${tolerance_mm} mm`);
 }
 
+// Writes a text where it is another: a table that stays as it is is not laid out again.
+function put(node, text) {
+  if (node.textContent !== text) node.textContent = text;
+}
+
+function reasonText(page, good) {
+  const {model} = page;
+  if (page.accurate?.error) return "–";
+  if (page.modelOf !== page.asked()) return "…";
+  return good(model) ? `for 1e−3 of the length ${modelText(model)} suffice: ${model.model.reason ?? "as asked"}.` : "–";
+}
+
 function tell(page) {
-  const {accurate, compared, model} = page, good = answer => answer && !answer.error && answer.status === "converged";
-  byId("scene-error").textContent = accurate?.error ?? "";
-  byId("compared-name").textContent = comparedName(page.options());
+  const {accurate, compared} = page, good = answer => answer && !answer.error && answer.status === "converged";
+  put(byId("scene-error"), accurate?.error ?? "");
+  put(byId("compared-name"), comparedName(page.options()));
   const outcome = answer => answer.error ? "no answer" : answer.status === "converged" ? "converged"
     : `${answer.status.replaceAll("_", " ")}: ${answer.message}`;
-  byId("outcome").textContent = accurate.error ? `No rod: ${accurate.error}`
-    : good(accurate) && good(compared)
-    ? `The compared shape is ${mm(page.distance(), 3)} away at most, ${(100 * page.distance() / page.length()).toPrecision(2)} % of the length.`
-    : `accurate: ${outcome(accurate)}; compared: ${outcome(compared)}. What did not converge is not drawn.`;
+  const away_mm = good(accurate) && good(compared) ? page.distance() : null;
+  put(byId("outcome"), accurate.error ? `No rod: ${accurate.error}` : away_mm !== null
+    ? `The compared shape is ${mm(away_mm, 3)} away at most, ${(100 * away_mm / page.length()).toPrecision(2)} % of the length.`
+    : `accurate: ${outcome(accurate)}; compared: ${outcome(compared)}. What did not converge is not drawn.`);
   const stable = {true: "yes", false: "no"};
   const rows = [
     ["status", ...[accurate, compared].map(outcome)],
@@ -47,7 +59,11 @@ function tell(page) {
     ["time of a solve", ...[accurate, compared].map((a, i) => timeOf(page, a, i))],
     ["as the load grows", accurate.error ? "–" : snapText(page), ""],
   ];
-  byId("facts").tBodies[0].replaceChildren(...rows.map(([name, ...cells]) =>
-    element("tr", {}, element("th", {scope: "row"}, name), ...cells.map(cell => element("td", {}, cell)))));
-  byId("reason").textContent = good(model) ? `for 1e−3 of the length ${modelText(model)} suffice: ${model.model.reason ?? "as asked"}.` : "–";
+  const table = byId("facts").tBodies[0];
+  if (table.rows.length === 0) {
+    table.append(...rows.map(([name]) =>
+      element("tr", {}, element("th", {scope: "row"}, name), element("td"), element("td"))));
+  }
+  rows.forEach(([, ...cells], i) => cells.forEach((text, k) => put(table.rows[i].cells[k + 1], text)));
+  put(byId("reason"), reasonText(page, good));
 }

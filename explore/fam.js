@@ -14,15 +14,19 @@ class Fam {
       this.worker.onerror = event => reject(new Error(event.message));
       this.worker.onmessage = ({data}) => {
         if (data.ready) return resolve();
-        this.waiting.get(data.id)?.(data.result);
+        this.waiting.get(data.id)?.(data.results);
         this.waiting.delete(data.id);
       };
     });
     this.worker.postMessage({wasm: this.wasm});
   }
 
-  // {"error"} where the answer takes longer than anybody waits; the worker then begins again.
   async ask(name, ...args) {
+    return (await this.askAll([[name, ...args]]))[0];
+  }
+
+  // The answers to calls, in one message; {"error"} where they take longer than anybody waits: the worker then begins again.
+  async askAll(calls) {
     await this.ready;
     const id = this.next++;
     return new Promise(resolve => {
@@ -31,13 +35,13 @@ class Fam {
         const left = [...this.waiting.values()];
         this.waiting.clear();
         this.start();
-        for (const give of left) give({error: `no answer in ${mostSeconds} s`});
+        for (const give of left) give(null);
       }, 1000 * mostSeconds);
-      this.waiting.set(id, result => {
+      this.waiting.set(id, results => {
         clearTimeout(late);
-        resolve(result);
+        resolve(results ?? calls.map(() => ({error: `no answer in ${mostSeconds} s`})));
       });
-      this.worker.postMessage({id, name, args});
+      this.worker.postMessage({id, calls});
     });
   }
 }

@@ -42,10 +42,16 @@ class View {
     return this.zoom * Math.min(this.canvas.clientWidth / 1.6, this.canvas.clientHeight / 1.3) / this.length;
   }
 
+  // The function that puts a place on the canvas, for as long as the view does not turn.
+  projector() {
+    const {right, up, near} = this.axes(), scale = this.pixelsPerMm(), [x, y, z] = this.centre;
+    const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
+    const along = (axis, p) => axis[0] * (p[0] - x) + axis[1] * (p[1] - y) + axis[2] * (p[2] - z);
+    return p => ({x: width / 2 + scale * along(right, p), y: height / 2 - scale * along(up, p), depth: along(near, p) / this.length});
+  }
+
   project(p) {
-    const {right, up, near} = this.axes(), scale = this.pixelsPerMm(), q = add(p, times(this.centre, -1));
-    return {x: this.canvas.clientWidth / 2 + scale * dot(q, right), y: this.canvas.clientHeight / 2 - scale * dot(q, up),
-            depth: dot(q, near) / this.length};
+    return this.projector()(p);
   }
 
   // A way on the canvas, px, as one in space, mm.
@@ -62,6 +68,7 @@ class View {
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, canvas.clientWidth, canvas.clientHeight);
     context.lineCap = context.lineJoin = "round";
+    this.place = this.projector();
     this.drawGround(context);
     for (const rod of rods) this.drawRod(context, rod);
     for (const arrow of arrows) this.drawArrow(context, arrow);
@@ -69,7 +76,7 @@ class View {
 
   drawGround(context) {
     const line = (from, to, colour, width) => {
-      const [a, b] = [this.project(from), this.project(to)];
+      const [a, b] = [this.place(from), this.place(to)];
       context.strokeStyle = colour;
       context.lineWidth = width;
       context.beginPath();
@@ -94,7 +101,7 @@ class View {
 
   // points: positions clamp to tip; radius_mm along them; share: of the width as drawn.
   drawRod(context, {points, radius_mm, colour, share, dashed}) {
-    const placed = points.map(p => this.project(p));
+    const placed = points.map(this.place);
     context.setLineDash(dashed ? [6, 5] : []);
     if (dashed) {
       context.strokeStyle = colour;
@@ -108,13 +115,18 @@ class View {
     const scale = this.pixelsPerMm();
     const pieces = placed.slice(1).map((end, i) => ({begin: placed[i], end, width: Math.max(3, share * Math.min(26, 2 * scale * radius_mm[i + 1]))}));
     pieces.sort((a, b) => a.begin.depth + a.end.depth - b.begin.depth - b.end.depth);
-    const stroke = (width, style, shift) => pieces.forEach(piece => {
-      context.strokeStyle = style(piece);
-      context.lineWidth = width(piece);
-      context.beginPath();
+    // Pieces of one width and style that follow each other are one path: strokes are what drawing costs.
+    const stroke = (width, style, shift) => pieces.forEach((piece, i) => {
+      const before = pieces[i - 1], [w, s] = [width(piece), style(piece)];
+      if (!before || width(before) !== w || style(before) !== s) {
+        if (before) context.stroke();
+        context.beginPath();
+        context.strokeStyle = s;
+        context.lineWidth = w;
+      }
       context.moveTo(piece.begin.x, piece.begin.y - shift * piece.width);
       context.lineTo(piece.end.x, piece.end.y - shift * piece.width);
-      context.stroke();
+      if (i + 1 === pieces.length) context.stroke();
     });
     const light = piece => Math.round(Math.max(-12, Math.min(12, 14 * (piece.begin.depth + piece.end.depth))));
     stroke(piece => piece.width, piece => `hsl(${colour[0]} ${colour[1]}% ${colour[2] + light(piece)}%)`, 0);
@@ -123,7 +135,7 @@ class View {
 
   // from, to: base frame; a moment has a second head.
   drawArrow(context, {from, to, moment, selected}) {
-    const [a, b] = [this.project(from), this.project(to)];
+    const [a, b] = [this.place(from), this.place(to)];
     const colour = moment ? "#7a2ea0" : "#14804a", length = Math.hypot(b.x - a.x, b.y - a.y);
     context.strokeStyle = context.fillStyle = colour;
     context.lineWidth = selected ? 3.5 : 2.5;

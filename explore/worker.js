@@ -1,4 +1,5 @@
-// Runs in a worker of its own, so that the page moves while a rod is solved: {id, name, args} in, {id, result} out.
+// Runs in a worker of its own, so that the page moves while a rod is solved: {id, calls} in, each call its name and
+// arguments, {id, results} out: one message each way, however much a frame asks for.
 
 const functions = {
   solve: ["explore_solve", "string", ["string", "string"]],
@@ -14,6 +15,8 @@ onmessage = async ({data}) => {
     postMessage({ready: true});
     return;
   }
-  const result = calls[data.name](...data.args);
-  postMessage({id: data.id, result: typeof result === "string" ? JSON.parse(result) : result});
+  postMessage({id: data.id, results: data.calls.map(([name, ...args]) => {
+    const result = calls[name](...args);
+    return typeof result === "string" ? JSON.parse(result) : result;
+  })});
 };

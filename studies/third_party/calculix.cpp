@@ -13,7 +13,7 @@ namespace studies {
 
 namespace {
 
-// The load that the last increment reached that was not cut back (the attempts of those end in U).
+// The load that the last increment reached; of an attempt that was cut back (it ends in U), what was reached before.
 double load_share_of(const std::filesystem::path& status_file) {
   std::ifstream lines(status_file);
   double share = 0;
@@ -21,7 +21,7 @@ double load_share_of(const std::filesystem::path& status_file) {
     std::istringstream words(line);
     std::string step, increment, attempt, iterations;
     double time = 0;
-    if (words >> step >> increment >> attempt >> iterations >> time && attempt.back() != 'U') share = time;
+    if (words >> step >> increment >> attempt >> iterations >> time) share = time;
   }
   return share;
 }
@@ -33,9 +33,13 @@ bool calculix_is_there() {
 }
 
 ThirdPartyTip solve_by_calculix(const scene::Scene& scene, int elements) {
+  return solve_by_calculix(scene, deck(scene, scene.title, DeckFormat::calculix, elements), elements);
+}
+
+ThirdPartyTip solve_by_calculix(const scene::Scene& scene, const std::string& text, int elements) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("fam_calculix_" + std::to_string(getpid()));
-  write_file(folder / "job.inp", deck(scene, scene.title, DeckFormat::calculix, elements));
+  write_file(folder / "job.inp", text);
   ThirdPartyTip tip{"", calculix_key, elements, "not_converged"};
   int status = 0;
   tip.time_us =

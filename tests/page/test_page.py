@@ -59,6 +59,27 @@ def test_drag_changes_the_shape(browser):
 
 
 @no_browser
+def test_a_frame_asks_once_and_the_rest_waits_until_it_is_quiet(browser):
+    calls, reason = browser.run("""explorer.then(async page => {
+        const worker = page.solver.worker, post = worker.postMessage.bind(worker), calls = [];
+        clearTimeout(page.quiet);
+        worker.postMessage = message => { calls.push(message.calls.map(call => call[0])); post(message); };
+        page.pull(0, [0, 3, 0]);
+        clearTimeout(page.quiet);
+        await page.settled;
+        return [calls, document.getElementById('reason').textContent];
+    })""")
+    assert calls == [["solve", "solve"]]
+    assert reason == "…"
+    browser.run("explorer.then(page => page.changed())")
+    wait_until = time.monotonic() + 20
+    while "suffice" not in browser.run("document.getElementById('reason').textContent"):
+        assert time.monotonic() < wait_until
+        time.sleep(0.1)
+    assert browser.run("explorer.then(page => document.getElementById('scene-text').value === page.text)")
+
+
+@no_browser
 def test_drag_beside_the_handles_turns_the_view_alone(browser):
     before = tip_mm(browser)
     yaw = browser.run("explorer.then(page => page.view.yaw)")
