@@ -416,9 +416,10 @@ TEST_F(Docs, ReadmeGivesTheErrorsOfStudy1) {
 // Links lead somewhere, and what stands in the words of these pages as a path in the project is one.
 TEST_F(Docs, LinksAndPathsExist) {
   int links = 0, paths = 0;
-  for (const std::string name : {"README.md", "CONTRIBUTING.md", "docs/scene_format.md", "docs/commands.md",
-                                 "docs/library.md", "docs/paraview.md", "docs/theory.md", "docs/estimation.md", "docs/population.md",
-                                 "docs/frames.svg", "docs/library.svg", "studies/cases/robots/README.md"}) {
+  for (const std::string name :
+       {"README.md", "CONTRIBUTING.md", "docs/scene_format.md", "docs/commands.md", "docs/library.md",
+        "docs/paraview.md", "docs/theory.md", "docs/estimation.md", "docs/population.md", "docs/frames.svg",
+        "docs/library.svg", "studies/cases/robots/README.md"}) {
     ASSERT_TRUE(fs::exists(project / name)) << name;
     const std::string page = contents(project / name);
     const fs::path folder = (project / name).parent_path();
