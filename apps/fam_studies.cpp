@@ -149,7 +149,7 @@ int main(int argc, char** argv) {
   std::function<int()> chosen = [&] { return run_studies(app, arguments); };
   const studies::Progress::Style progress = studies::Progress::style_of(stderr);
   studies::add_random_commands(*app.get_subcommand("random"), progress, chosen);
-  studies::add_statistic_option(*app.get_subcommand("population"), arguments.options.quick, progress, chosen);
+  studies::add_statistic_option(*app.get_subcommand("population"), arguments.options.quick, arguments.quiet, chosen);
 
   studies::add_campaign_commands(*app.get_subcommand("campaign"), progress, chosen);
 

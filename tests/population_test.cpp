@@ -105,6 +105,20 @@ TEST(Population, StandInIsTheBeam) {
   EXPECT_GT(largest_beam_distance_mm(1.05), 100 * beam_limit_mm);
 }
 
+TEST(Population, SidesHaveTheFramesOfTheirNames) {
+  const auto frames = [](Side side) {
+    const scene::Scene scene = scene_of(40, {}, {}, side);
+    return std::pair(std::get<scene::Force>(scene.loads[0]).frame, std::get<scene::Moment>(scene.loads[1]).frame);
+  };
+  using scene::Frame;
+  EXPECT_EQ(frames(Side::follower), std::pair(Frame::follower, Frame::follower));
+  EXPECT_EQ(frames(Side::follower_kirchhoff), std::pair(Frame::follower, Frame::follower));
+  EXPECT_EQ(frames(Side::fixed), std::pair(Frame::fixed, Frame::fixed));
+  EXPECT_EQ(frames(Side::fixed_kirchhoff), std::pair(Frame::fixed, Frame::fixed));
+  EXPECT_EQ(frames(Side::fixed_moment), std::pair(Frame::follower, Frame::fixed));
+  EXPECT_EQ(frames(Side::fixed_force), std::pair(Frame::fixed, Frame::follower));
+}
+
 TEST(Population, SetsAreWhatTheyAreSaidToBe) {
   for (std::uint64_t i = 0; i < 12; ++i) {
     const LoadSet set = load_set(rod, i);

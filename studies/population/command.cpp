@@ -120,14 +120,14 @@ PrintedStudy read_printed_study(const std::string& path) {
   return study;
 }
 
-void add_statistic_option(CLI::App& population, const bool& quick, const Progress::Style& progress,
-                          std::function<int()>& chosen) {
+void add_statistic_option(CLI::App& population, const bool& quick, const bool& quiet, std::function<int()>& chosen) {
   constexpr std::uint64_t few_sets = 300;
   population.add_option_function<std::string>(
       "--statistic",
-      [&quick, &progress, &chosen](const std::string& file) {
-        chosen = [&quick, &progress, file] {
+      [&quick, &quiet, &chosen](const std::string& file) {
+        chosen = [&quick, &quiet, file] {
           const PrintedStudy study = read_printed_study(file);
+          const Progress::Style progress = quiet ? Progress::Style::quiet : Progress::style_of(stderr);
           fmt::print("{}", answer_csv(study, quick ? few_sets : population_sets, progress));
           return 0;
         };

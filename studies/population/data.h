@@ -88,8 +88,7 @@ TextFiles population_page(const std::filesystem::path& folder, const std::filesy
 PrintedStudy read_printed_study(const std::string& path);  // throws scene::SceneError; docs/population.md
 // verdicts.csv for these statistics.
 std::string answer_csv(const PrintedStudy& study, std::uint64_t sets, Progress::Style progress);
-// Adds the option; parsing it sets `chosen` to its work. quick: read when that is done.
-void add_statistic_option(CLI::App& population, const bool& quick, const Progress::Style& progress,
-                          std::function<int()>& chosen);
+// Adds the option; parsing it sets `chosen` to its work. quick, quiet: read when that is done.
+void add_statistic_option(CLI::App& population, const bool& quick, const bool& quiet, std::function<int()>& chosen);
 
 }  // namespace studies

@@ -1,6 +1,6 @@
 #include "studies/population/mechanisms.h"
 
-#include "studies/segmentation/ablation.h"
+#include "studies/compare/arc_trend.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -124,12 +124,12 @@ TipLoadedRod rod_of(const PopulationRod& rod, const scene::Stiffness& stiffness,
 
 // The errors at the number of arcs that the paper's curve spans.
 Trend over_arcs(const Mechanism& mechanism, const PopulationRod& rod, const LoadSet& set, const TipCase& c) {
-  AblationRow row;
+  std::vector<ArcError> curve;
   for (const int arcs : {1, 2, 3, 4, 6, 8, 12, 16, 20, 30, 50, 100, 200, 500, 1000, 2000, 5000}) {
     const auto error = tip_error_mm(mechanism, rod, set, c, mechanism.arcs == 0 ? 0 : arcs);
-    row.points.push_back({arcs, error ? error->norm() : NAN, 0, 0, 0, 0, 0, 0});
+    curve.push_back({arcs, error ? error->norm() : NAN});
   }
-  return trend(row, &AblationPoint::error_mm);
+  return trend(curve);
 }
 
 // Empty where a side has no answer.

@@ -31,7 +31,7 @@ std::optional<std::vector<Eigen::Vector3d>> tip_errors_mm(const Mechanism& mecha
 struct MechanismTrend {
   bool answered = false;
   bool under_3_mm = false, minimum_near_12 = false,
-       rises = false;              // Trend (segmentation/ablation.h), worst planar case
+       rises = false;              // Trend (compare/arc_trend.h), worst planar case
   bool grows_with_torque = false;  // from each of 0, 10, ... 50 N mm to the next, first spatial case
 };
 MechanismTrend trend_of(const Mechanism& mechanism, const PopulationRod& rod, const LoadSet& set);

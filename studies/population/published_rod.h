@@ -3,7 +3,7 @@
 #pragma once
 
 #include "fam/published_arc.h"
-#include "studies/segmentation/ablation_arcs.h"
+#include "studies/methods/weakened_arc.h"
 
 #include <type_traits>
 

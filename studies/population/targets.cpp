@@ -1,7 +1,7 @@
 #include "studies/population/targets.h"
 
 #include "studies/compare/error_measures.h"
-#include "studies/study1/printed.h"
+#include "studies/compare/printed_statistics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -35,7 +35,7 @@ struct PrintedStudy {
   double rounding_mm = 0.005;  // two decimals
   std::array<std::optional<Interval>, statistic_count> printed;
 };
-PrintedStudy printed_study1();  // the paper's (study1/printed.h), within their rounding
+PrintedStudy printed_study1();  // the paper's (compare/printed_statistics.h), within their rounding
 
 // What a set is asked to have: as printed, but where a row contradicts itself its SD, its SD of |e| and its RMS reach
 // over all readings: the printed one, and those that follow from the others by RMS^2 = mean^2 + k SD^2 = MAE^2 + k

@@ -262,17 +262,9 @@ AblationData run_ablation(const PlanarCantilever& given, const Eigen::Vector2d& 
 }
 
 Trend trend(const AblationRow& row, double AblationPoint::*error) {
-  Trend result;
-  result.minimum_mm = INFINITY;
-  for (const AblationPoint& p : row.points) {
-    const double value = p.*error;
-    if (value < result.minimum_mm) result.minimum_mm = value, result.minimum_arcs = p.arcs;
-    if (p.arcs >= 12 && p.arcs <= 500) result.largest_12_to_500_mm = std::max(result.largest_12_to_500_mm, value);
-    if (p.arcs == 12) result.at_12_mm = value;
-    if (p.arcs == 500) result.at_500_mm = value;
-    if (p.arcs == 5000) result.at_5000_mm = value;
-  }
-  return result;
+  std::vector<ArcError> curve;
+  for (const AblationPoint& p : row.points) curve.push_back({p.arcs, p.*error});
+  return trend(curve);
 }
 
 }  // namespace studies

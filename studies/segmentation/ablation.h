@@ -2,7 +2,8 @@
 // bottoms out near N = 12 or rises beyond 500, as printed in the paper?
 #pragma once
 
-#include "studies/segmentation/ablation_arcs.h"
+#include "studies/compare/arc_trend.h"
+#include "studies/methods/weakened_arc.h"
 
 #include "exact_reference/elastica.h"
 
@@ -67,16 +68,6 @@ Eigen::Vector2d weakened_tip_mm(const PlanarCantilever& rod, const Weakness& wea
 // fe_tip_mm: of the same rod, with shear and stretch.
 AblationData run_ablation(const PlanarCantilever& rod, const Eigen::Vector2d& fe_tip_mm);
 
-// What the paper prints of its error over N, asked of a curve of errors (NaN is left out). No values are printed but
-// the 3 mm; "near 12" is taken as 8 to 30, "rises" as twice the error of 500 arcs at 5000.
-struct Trend {
-  int minimum_arcs = 0;
-  double minimum_mm = 0, at_12_mm = 0, at_500_mm = 0, at_5000_mm = 0, largest_12_to_500_mm = 0;
-
-  bool minimum_near_12() const { return minimum_arcs >= 8 && minimum_arcs <= 30; }
-  bool rises() const { return at_5000_mm > 2 * at_500_mm; }
-  bool under_3_mm() const { return largest_12_to_500_mm < 3; }
-};
 Trend trend(const AblationRow& row, double AblationPoint::*error);
 
 std::string one_digit(double value);  // of its magnitude; "–" where it is not finite

@@ -22,7 +22,7 @@ constexpr double solves_per_s = 1000;
 constexpr double tolerance_mm = 0.01;
 
 // The loads' numbers in the scene file.
-constexpr std::size_t tendons[] = {1, 2}, force = 3;
+constexpr std::size_t stream_tendons[] = {1, 2}, stream_force = 3;
 
 struct Inputs {
   double tensions_N[2];
@@ -38,8 +38,9 @@ Inputs inputs_at(int solve) {
 }
 
 scene::Scene with(scene::Scene scene, const Inputs& inputs) {
-  for (int i = 0; i < 2; ++i) known_load<scene::Tendon>(scene.loads[tendons[i]])->tension_N = inputs.tensions_N[i];
-  known_load<scene::Force>(scene.loads[force])->value_N = inputs.force_N;
+  for (int i = 0; i < 2; ++i)
+    known_load<scene::Tendon>(scene.loads[stream_tendons[i]])->tension_N = inputs.tensions_N[i];
+  known_load<scene::Force>(scene.loads[stream_force])->value_N = inputs.force_N;
   return scene;
 }
 
@@ -100,16 +101,16 @@ class Stream {
   }
 
   static void set(fam::Solver& solver, const Inputs& inputs) {
-    for (int i = 0; i < 2; ++i) solver.set_tension_N(tendons[i], inputs.tensions_N[i]);
-    solver.set_force_N(force, inputs.force_N);
+    for (int i = 0; i < 2; ++i) solver.set_tension_N(stream_tendons[i], inputs.tensions_N[i]);
+    solver.set_force_N(stream_force, inputs.force_N);
   }
 
   // What a controller asks for at each tick.
   void solve(const Inputs& inputs) {
     set(solver_, inputs);
     if (!solver_.solve().converged()) ++data_.not_converged;
-    double sum = solver_.compliance(data_.length_mm).sum() + solver_.by_load(force, data_.length_mm).sum();
-    for (const std::size_t tendon : tendons) sum += solver_.by_load(tendon, data_.length_mm).col(0).sum();
+    double sum = solver_.compliance(data_.length_mm).sum() + solver_.by_load(stream_force, data_.length_mm).sum();
+    for (const std::size_t tendon : stream_tendons) sum += solver_.by_load(tendon, data_.length_mm).col(0).sum();
     if (!std::isfinite(sum)) ++data_.without_slopes;
   }
 

@@ -1,10 +1,10 @@
 #include "studies/compare/error_measures.h"
+#include "studies/compare/printed_statistics.h"
+#include "studies/compare/timing_cells.h"
 #include "studies/report/page.h"
 #include "studies/report/provenance.h"
 #include "studies/report/table.h"
 #include "studies/study1/page.h"
-#include "studies/study1/printed.h"
-#include "studies/compare/timing_cells.h"
 
 #include <fmt/format.h>
 

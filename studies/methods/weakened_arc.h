@@ -4,7 +4,7 @@
 #pragma once
 
 #include "fam/arc.h"
-#include "studies/segmentation/ablation_search.h"
+#include "studies/methods/arc_search.h"
 
 #include <cmath>
 

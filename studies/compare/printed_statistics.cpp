@@ -1,4 +1,4 @@
-#include "studies/study1/printed.h"
+#include "studies/compare/printed_statistics.h"
 
 #include <algorithm>
 #include <cmath>
