@@ -11,8 +11,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace studies {
 namespace {
 
@@ -53,17 +51,13 @@ class ThirdParty {
     const Eigen::Vector3d follows_mm = exact(trial("moment_follower")).tip().position_B_mm;
     data_.frames_apart_mm = (keeps_axis_mm - follows_mm).norm();
     if (!data_.has_calculix) return;
+    const double moment_Nmm = std::get<scene::Moment>(fixed.loads.back()).value_Nmm[1];
     scene::Scene force_alone = fixed;
-    std::erase_if(force_alone.loads,
-                  [](const scene::Load& load) { return std::holds_alternative<scene::Moment>(load); });
-    const auto moment = std::find_if(fixed.loads.begin(), fixed.loads.end(), [](const scene::Load& load) {
-      return std::holds_alternative<scene::Moment>(load);
-    });
+    force_alone.loads.pop_back();
     for (std::size_t i = 0; i < 2; ++i) {
       const int elements = i == 0 ? 20 : 40;
       std::string text = deck(force_alone, fixed.title, DeckFormat::calculix, elements);
-      text.insert(text.find("*NODE PRINT"),
-                  fmt::format("*CLOAD\nTIP, 5, {:.15g}\n", std::get<scene::Moment>(*moment).value_Nmm[1]));
+      text.insert(text.find("*NODE PRINT"), fmt::format("*CLOAD\nTIP, 5, {:.15g}\n", moment_Nmm));
       const Eigen::Vector3d tip_mm = solve_by_calculix(fixed, text, elements).position_mm;
       data_.from_fixed_mm[i] = (tip_mm - keeps_axis_mm).norm();
       data_.from_follower_mm[i] = (tip_mm - follows_mm).norm();
