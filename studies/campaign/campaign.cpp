@@ -1,8 +1,8 @@
 // fam-studies campaign: the campaigns `random` and `audit`, and their page. A stopped run goes on where it was. With
 // --quick the first scenes of both are judged, the whole is read back from results/.
 #include "studies/campaign/data.h"
-#include "studies/campaign/engine.h"
 #include "studies/campaign/kinds.h"
+#include "studies/engine/engine.h"
 #include "studies/report/provenance.h"
 #include "studies/report/table.h"
 #include "studies/study.h"

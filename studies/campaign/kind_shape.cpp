@@ -82,17 +82,16 @@ Rows rows_of(const scene::Scene& scene) {
   Rows rows;
   for (int k = 0; k < rods; ++k) {
     scene::Scene row = scene_of_row(scene, k);
-    long column = 0;
+    std::vector<double> values;
     for (std::size_t load = 0; load < row.loads.size(); ++load) {
-      const std::span<double> numbers = scene::numbers_of(row.loads[load]);
-      for (int c = 0; c < static_cast<int>(numbers.size()); ++c, ++column) {
-        if (k == 0) {
-          rows.columns.push_back({load, c});
-          rows.values.conservativeResize(rods, column + 1);
-        }
-        rows.values(k, column) = numbers[static_cast<std::size_t>(c)];
+      int component = 0;
+      for (const double number : scene::numbers_of(row.loads.at(load))) {
+        if (k == 0) rows.columns.push_back({load, component++});
+        values.push_back(number);
       }
     }
+    rows.values.conservativeResize(rods, static_cast<long>(values.size()));
+    rows.values.row(k) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), static_cast<long>(values.size()));
   }
   return rows;
 }

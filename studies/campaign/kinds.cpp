@@ -1,8 +1,8 @@
 #include "studies/campaign/kinds.h"
 
-#include "studies/campaign/engine.h"
 #include "studies/campaign/kind_rows.h"
 #include "studies/campaign/summary.h"
+#include "studies/engine/engine.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 namespace studies {
 
 std::span<const CampaignKind> campaign_kinds() {
-  static const CampaignKind kinds[] = {random_kind, audit_kind, promise_kind, shape_kind, batch_kind};
-  return kinds;
+  static const CampaignKind all[] = {random_kind, audit_kind, promise_kind, shape_kind, batch_kind};
+  return all;
 }
 
 const CampaignKind& campaign_kind(const std::string& name) {

@@ -1,7 +1,7 @@
 #include "studies/sweep/command.h"
 
 #include "fam/solve.h"
-#include "studies/campaign/engine.h"
+#include "studies/engine/engine.h"
 #include "studies/report/output_file.h"
 #include "studies/sweep/sweep_file.h"
 #include "studies/sweep/workspace.h"

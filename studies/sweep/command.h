@@ -20,7 +20,7 @@ struct SweepArguments {
 
 CLI::App* add_sweep_command(CLI::App& app, SweepArguments& arguments);
 
-// Writes sweep.csv and workspace.svg beside the chunks (studies/campaign/engine.h). Exit status 0 also where points
+// Writes sweep.csv and workspace.svg beside the chunks (studies/engine/engine.h). Exit status 0 also where points
 // have no answer: their lines say why.
 int run_sweep(const SweepArguments& arguments, Progress::Style style);
 

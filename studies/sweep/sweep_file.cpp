@@ -17,7 +17,7 @@ using scene::JsonNode;
 constexpr std::uint64_t most_points = 100'000'000;
 constexpr std::size_t most_variables = 40;  // GSL's Sobol sequence has no more
 
-// The value at a path like loads[0].value_N[1]; null where there is none.
+// The value at a path like rod.sections[0].length_mm; null where there is none.
 Json* value_at(Json& json, const std::string& path) {
   Json* at = &json;
   for (std::size_t i = 0; i < path.size();) {
@@ -47,7 +47,7 @@ Variable variable_of(const JsonNode& node, Json& scene, Sampling sampling) {
   variable.path = node.at("path").string();
   const Json* value = value_at(scene, variable.path);
   if (variable.path.empty() || value == nullptr || !value->is_number())
-    node.at("path").refuse("must be the path of a number in the scene, like loads[0].value_N[1]");
+    node.at("path").refuse("must be the path of a number in the scene, like rod.sections[0].length_mm");
   if (node.has("mean") || node.has("sd")) {
     variable.spread = Variable::Spread::normal;
     variable.mean = node.at("mean").number();

@@ -1,4 +1,4 @@
-#include "studies/campaign/crew.h"
+#include "studies/engine/crew.h"
 
 #include <algorithm>
 #include <cstdlib>

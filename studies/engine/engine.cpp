@@ -1,4 +1,4 @@
-#include "studies/campaign/engine.h"
+#include "studies/engine/engine.h"
 
 #include "scene/scene.h"
 #include "studies/report/output_file.h"

@@ -8,7 +8,7 @@
 // All but manifest and timing are functions of kind, seed, number of scenes and chunk alone.
 #pragma once
 
-#include "studies/campaign/crew.h"
+#include "studies/engine/crew.h"
 #include "studies/report/progress.h"
 
 #include <cstdint>
