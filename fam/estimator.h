@@ -4,8 +4,9 @@
 // With x the unknowns in units of their own (EI/L^2, EI/L, L, 1, 1/L), r(x) what is measured less what the model gives,
 // over the standard deviations, the priors' rows among them, and J = dr/dx, a step solves
 //   (J^T J + lambda D) dx = -J^T r,   D = diag(J^T J), at least 1e-6 of its largest,
-// and lambda falls where chi-squared r.r does. Converged: r.r could fall by less than 1e-10 (1 + r.r) in a step without
-// damping, in the directions that can be observed.
+// and lambda falls where chi-squared r.r does. Converged: r.r could fall by less than 1e-8 (1 + r.r) in a step without
+// damping, in the directions that can be observed. Where places are unknown and the minimum found does not fit, or none
+// is found, the search begins again from twelve places spread over the rod, and the lowest minimum counts.
 #pragma once
 
 #include "fam/solver.h"
@@ -53,6 +54,9 @@ class Estimator {
   const scene::EstimationProblem& problem() const;
   void set_measurement(std::size_t scene, std::size_t measurement, const scene::Measurement& value);
   Estimate estimate();
+  // The same where it is kept: for streams; takes no memory once a rod with these loads has been solved (unknown
+  // stiffness and rest curvature, directions that cannot be observed and failures do).
+  const Estimate& track();
 
  private:
   struct Impl;

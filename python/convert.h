@@ -1,6 +1,7 @@
 // Between Python's values and the library's. Whatever does not fit is a scene::SceneError of one line.
 #pragma once
 
+#include "fam/estimator.h"
 #include "fam/solver.h"
 
 #include <pybind11/numpy.h>
@@ -18,6 +19,8 @@ std::string shown(py::handle value);
 
 // A dict in the scene format (numpy's arrays and numbers welcome), its JSON text, or the path of a scene file.
 scene::Scene scene_of(py::handle scene);
+// The same of the estimation format.
+scene::EstimationProblem problem_of(py::handle problem);
 
 // The keyword arguments of the same names; None: the default.
 struct Keywords {
@@ -51,5 +54,6 @@ py::array view(const double* data, std::vector<py::ssize_t> shape, std::vector<p
 void add_solve(py::module_& module);
 void add_solver(py::module_& module);
 void add_batch(py::module_& module);
+void add_estimator(py::module_& module);
 
 }  // namespace fam_python

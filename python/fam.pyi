@@ -279,3 +279,74 @@ class Solver:
         """(6,): of the rod's own wrench, as `by_place`."""
     def jacobian(self, s_mm: ArrayLike, parameters: Sequence[_Parameter]) -> _Array:
         """(6 n, m): slopes of the poses at n places, six rows for each, a column for each of m parameters."""
+
+@final
+class Estimate:
+    """What fam.estimate gives. Unknowns are in the order of the problem's, in the units of the scene."""
+
+    @property
+    def status(self) -> str:
+        """'converged', or why not."""
+    @property
+    def converged(self) -> bool: ...
+    @property
+    def message(self) -> str:
+        """One line: why not converged, or that the model does not fit; else empty."""
+    @property
+    def names(self) -> list[str]:
+        """'loads[0].x, N', 'sections[1].bending_factor', ..."""
+    @property
+    def mean(self) -> _Array:
+        """(n,): NaN where an unknown cannot be observed."""
+    @property
+    def sd(self) -> _Array:
+        """(n,): standard deviations, likewise."""
+    @property
+    def observable(self) -> list[bool]: ...
+    @property
+    def covariance(self) -> _Array:
+        """(n, n)."""
+    @property
+    def unobservable(self) -> _Array:
+        """(m, n): directions of the unknowns of which the measurements tell nothing, in units of their own."""
+    @property
+    def chi_squared(self) -> float: ...
+    @property
+    def degrees_of_freedom(self) -> int: ...
+    @property
+    def fits(self) -> bool:
+        """chi_squared is below what one in 1000 exceeds."""
+    @property
+    def iterations(self) -> int: ...
+
+@final
+class Estimator:
+    """Loads, places, stiffness factors and rest curvatures from what was measured of a rod's shape, kept for a stream.
+
+    The next estimate starts from the last one. One estimator only in one thread at a time; others run while it searches.
+    """
+
+    def __init__(
+        self,
+        problem: _Scene,
+        tolerance_mm: float | None = None,
+        arcs: int | None = None,
+        law: _Law = "auto",
+        model: _Model = "auto",
+    ) -> None:
+        """problem: a dict in the estimation format, its JSON text, or the path of a file."""
+    def set_measurement(self, measurement: int, value: ArrayLike, scene: int = 0) -> None:
+        """New numbers for one of the problem's measurements, whose kind, place and deviation stay.
+
+        (3,) mm of a position, (3, 3) of a rotation, (2,) 1/mm of a curvature, (6,) N and N mm of a base wrench.
+        """
+    def estimate(self) -> Estimate: ...
+
+def estimate(
+    problem: _Scene,
+    tolerance_mm: float | None = None,
+    arcs: int | None = None,
+    law: _Law = "auto",
+    model: _Model = "auto",
+) -> Estimate:
+    """As `fam estimate`: the unknowns of a problem, and how well they are known."""

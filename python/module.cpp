@@ -11,4 +11,5 @@ PYBIND11_MODULE(fam, module) {
   fam_python::add_solve(module);
   fam_python::add_solver(module);
   fam_python::add_batch(module);
+  fam_python::add_estimator(module);
 }

@@ -1,6 +1,7 @@
-// Scenes from Python: any of them becomes JSON text, which the one reader of the scene format reads.
+// Scenes and estimation problems from Python: any of them becomes JSON text, which the one reader of the format reads.
 #include "convert.h"
 
+#include "scene/estimation_file.h"
 #include "scene/scene_file.h"
 
 #include <charconv>
@@ -15,6 +16,9 @@ constexpr std::size_t max_depth = 20;  // more than the reader takes; a list may
 // Writes a value as JSON; knows where it is, to say so.
 class JsonWriter {
  public:
+  // name: of the whole, in errors.
+  explicit JsonWriter(const char* name) : name_(name) {}
+
   std::string take(py::handle value) {
     write(value);
     return std::move(json_);
@@ -24,7 +28,7 @@ class JsonWriter {
   [[noreturn]] void refuse(py::handle value, const std::string& rule) const {
     std::string path;
     for (const std::string& step : path_) path += path.empty() && step[0] == '.' ? step.substr(1) : step;
-    fam_python::refuse("scene: " + (path.empty() ? "(top level)" : path), value, rule);
+    fam_python::refuse(std::string(name_) + ": " + (path.empty() ? "(top level)" : path), value, rule);
   }
 
   void write(py::handle value) {
@@ -101,27 +105,38 @@ class JsonWriter {
     json_ += '"';
   }
 
+  const char* name_;
   std::string json_;
   std::vector<std::string> path_;
 };
 
-scene::Scene read(const std::string& json) {
-  std::istringstream input(json);
-  return scene::read_scene(input, "scene");
+// read: of a stream with its name for errors; read_file: of a path.
+template <class Read, class ReadFile>
+auto read_any(py::handle value, const char* name, const Read& read, const ReadFile& read_file) {
+  const auto read_text = [&](const std::string& json) {
+    std::istringstream input(json);
+    return read(input, name);
+  };
+  if (py::isinstance<py::str>(value)) {
+    const std::string text = value.cast<std::string>();
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    const bool is_json = first != std::string::npos && (text[first] == '{' || text[first] == '[');
+    return is_json ? read_text(text) : read_file(text);
+  }
+  if (py::hasattr(value, "__fspath__")) return read_file(py::str(value.attr("__fspath__")()).cast<std::string>());
+  if (!py::isinstance<py::dict>(value))
+    refuse(std::string(name) + ": (top level)", value, "must be a dict, JSON text or a path");
+  return read_text(JsonWriter(name).take(value));
 }
 
 }  // namespace
 
 scene::Scene scene_of(py::handle scene) {
-  if (py::isinstance<py::str>(scene)) {
-    const std::string text = scene.cast<std::string>();
-    const std::size_t first = text.find_first_not_of(" \t\r\n");
-    const bool is_json = first != std::string::npos && (text[first] == '{' || text[first] == '[');
-    return is_json ? read(text) : scene::read_scene_file(text);
-  }
-  if (py::hasattr(scene, "__fspath__")) return scene::read_scene_file(py::str(scene.attr("__fspath__")()));
-  if (!py::isinstance<py::dict>(scene)) refuse("scene: (top level)", scene, "must be a dict, JSON text or a path");
-  return read(JsonWriter().take(scene));
+  return read_any(scene, "scene", scene::read_scene, scene::read_scene_file);
+}
+
+scene::EstimationProblem problem_of(py::handle problem) {
+  return read_any(problem, "problem", scene::read_estimation, scene::read_estimation_file);
 }
 
 }  // namespace fam_python

@@ -26,7 +26,7 @@ std::unique_ptr<KeptSolver> make(py::handle scene, py::object tolerance_mm, py::
   return std::make_unique<KeptSolver>(read, options);
 }
 
-Outcome solve(KeptSolver& kept, py::handle start) {
+Outcome solve_kept(KeptSolver& kept, py::handle start) {
   const auto is = [&](const char* name) {
     return PyUnicode_Check(start.ptr()) && PyUnicode_CompareWithASCIIString(start.ptr(), name) == 0;
   };
@@ -112,11 +112,11 @@ void add_setters(py::class_<KeptSolver>& solver) {
       .def(
           "set_rest_curvature_per_mm",
           [](KeptSolver& kept, py::ssize_t section, py::handle value) {
-            kept.use().set_rest_curvature_per_mm(
-                kept.section_to_set(section), vector_of(value, "rod.sections", section, ".rest_curvature_per_mm"));
+            kept.use().set_rest_curvature_per_mm(kept.section_to_set(section),
+                                                 vector_of(value, "rod.sections", section, ".rest_curvature_per_mm"));
           },
           py::arg("section"), py::arg("value"),
-           "set_rest_curvature_per_mm(section, value)\n\nvalue: (3,), 1/mm: torsion, bending about y, about z");
+          "set_rest_curvature_per_mm(section, value)\n\nvalue: (3,), 1/mm: torsion, bending about y, about z");
 }
 
 void add_shape(py::class_<KeptSolver>& solver) {
@@ -192,7 +192,7 @@ is not there IndexError. One solver only in one thread at a time; others run whi
   solver
       .def(py::init(&make), py::arg("scene"), py::arg("tolerance_mm") = py::none(), py::arg("arcs") = py::none(),
            py::arg("law") = "auto", py::arg("model") = "auto", py::arg("reserved_arcs") = fam::Options().reserved_arcs)
-      .def("solve", &solve, py::arg("start") = "last", R"(solve(start='last') -> Outcome
+      .def("solve", &solve_kept, py::arg("start") = "last", R"(solve(start='last') -> Outcome
 
 'last': on from the loads solved last, along the straight line between, on their branch; 'unloaded': the equilibrium that
 the rod reaches when all loads grow together from zero. Unless it converges the last solution stays.)")

@@ -2,6 +2,7 @@
 // from.
 #include "fam/estimator.h"
 
+#include "allocation_counter.h"
 #include "exact_reference/solve.h"
 #include "scene/estimation_file.h"
 #include "support.h"
@@ -286,6 +287,73 @@ TEST(Estimator, WrongProblemsAreRefusedInOneLine) {
     EXPECT_NE(line.find(rule), std::string::npos) << line;
     EXPECT_EQ(line.find('\n'), std::string::npos);
   }
+}
+
+// A force at 6 mm of 40, looked for from 36: the first minimum is another one, whose chi-squared tells; another start
+// finds it. Twin: with places told to a millimetre from 36 mm none fits.
+TEST(Estimator, LooksElsewhereWhereTheFirstMinimumDoesNotFit) {
+  const scene::Equilibrium exact =
+      exact_reference::solve(rod_under({force(6, {0, 8, 0}), force(30, {0, -0.8, 0.3})}), {});
+  ASSERT_TRUE(exact.converged());
+  const scene::Scene start = rod_under({force(36, Vector3d::Zero()), force(20, Vector3d::Zero())});
+  EstimationProblem problem{{{start, {}}}, {}};
+  for (double s_mm = 1; s_mm < L_mm; s_mm += 2)
+    problem.scenes[0].measurements.push_back(curvature(exact_station(exact, s_mm), 1e-5));
+  for (const std::size_t load : {0u, 1u}) {
+    for (const int axis : {1, 2}) problem.unknowns.push_back({Kind::component, 0, load, axis, 0});
+    problem.unknowns.push_back({Kind::place, 0, load, 0, load == 0 ? 36.0 : 20.0, 100});
+  }
+  const Estimate found = Estimator(problem).estimate();
+  ASSERT_TRUE(found.converged()) << found.message;
+  EXPECT_TRUE(found.fits) << found.chi_squared;
+  std::vector<double> places{found.mean[2], found.mean[5]};
+  std::sort(places.begin(), places.end());
+  EXPECT_NEAR(places[0], 6, 0.02);  // 6 and 30 mm went into the exact shape
+  EXPECT_NEAR(places[1], 30, 0.05);
+  problem.unknowns[2].prior_sd = problem.unknowns[5].prior_sd = 0.1;
+  const Estimate held = Estimator(problem).estimate();
+  EXPECT_FALSE(held.converged() && held.fits);
+}
+
+// From one span to the next: the load walks past a border of sections, at 15 mm, to where it stood.
+TEST(Estimator, PlacesAreFoundBeyondABorderOfSections) {
+  scene::Scene truth = rod_under({force(24, {0, 0.6, 0.2})});
+  truth.sections[0].length_mm = 15;
+  truth.sections.push_back(truth.sections[0]);
+  truth.sections[1].length_mm = L_mm - 15;
+  std::get<scene::Stiffness>(truth.sections[1].cross_section).bending_Nmm2 = {900, 900};
+  const scene::Equilibrium exact = exact_reference::solve(truth, {});
+  ASSERT_TRUE(exact.converged());
+  EstimationProblem problem{{{truth, {}}}, {}};
+  problem.scenes[0].scene.loads = {force(8, Vector3d::Zero())};
+  for (const double s_mm : {10.0, 20.0, 30.0, 40.0})
+    problem.scenes[0].measurements.push_back(position(exact_station(exact, s_mm), 0.001));
+  problem.unknowns = {{Kind::component, 0, 0, 1, 0}, {Kind::component, 0, 0, 2, 0}, {Kind::place, 0, 0, 0, 8}};
+  const Estimate found = Estimator(problem).estimate();
+  ASSERT_TRUE(found.converged()) << found.message;
+  EXPECT_NEAR(found.mean[2], 24, 0.05);
+  EXPECT_NEAR(found.mean[0], 0.6, 2e-3);
+}
+
+TEST(Estimator, AStreamTakesNoMemory) {
+  const scene::Scene start = rod_under({force(L_mm, Vector3d::Zero())});
+  const auto measured = [&](double share) {
+    const scene::Equilibrium exact = exact_reference::solve(rod_under({force(L_mm, share * true_force_N)}), {});
+    return position(exact.stations.back(), 0.01);
+  };
+  std::vector<scene::Measurement> stream;
+  for (const double share : {1.0, 0.9, 0.85, 1.1, 0.7}) stream.push_back(measured(share));
+  Estimator estimator({{{start, {stream[0]}}}, components(0, {0, 1, 2}, start)});
+  estimator.track();
+  const std::size_t before = allocation_count();
+  int converged = 0;
+  for (const scene::Measurement& measurement : stream) {
+    estimator.set_measurement(0, 0, measurement);
+    converged += estimator.track().converged();
+  }
+  EXPECT_EQ(allocation_count(), before);
+  EXPECT_EQ(converged, 5);
+  EXPECT_LT((estimator.track().mean - 0.7 * true_force_N).norm(), 1e-3);
 }
 
 }  // namespace

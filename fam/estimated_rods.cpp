@@ -1,0 +1,127 @@
+#include "fam/estimated_rods.h"
+
+#include "fam/measured_rows.h"
+
+#include "scene/load_visitor.h"
+
+#include <algorithm>
+
+namespace fam {
+namespace {
+
+using scene::Status;
+using scene::Unknown;
+using UnknownKind = scene::Unknown::Kind;
+
+// Chosen, not measured.
+constexpr double model_tolerance_over_L = 1e-6;
+constexpr double least_factor = 0.01;                                 // of a stiffness
+constexpr int first_reserved_arcs = 64, most_reserved_arcs = 65'536;  // memory for 1024 costs as much as a solve
+
+}  // namespace
+
+double unit_of(const Unknown& unknown, const scene::EstimationProblem& problem) {
+  const scene::Scene& scene = problem.scenes[unknown.scene].scene;
+  const double L = scene::length_mm(scene);
+  const scene::Stiffness stiffness = scene::stiffness_of(scene.sections.front());
+  const double EI = stiffness.bending_Nmm2.maxCoeff();
+  switch (unknown.kind) {
+    case UnknownKind::component:
+      return scene::visit_load(
+          scene.loads[unknown.index], [&](const scene::Force&) { return EI / (L * L); },
+          [&](const scene::Moment&) { return EI / L; },
+          [&](const scene::DistributedForce&) { return EI / (L * L * L); },
+          [&](const scene::Gravity&) {
+            const double mass = stiffness.mass_per_length_kg_per_m * 1e-3;  // kg/mm
+            return mass > 0 ? EI / (L * L * L) / mass : 1;
+          },
+          [&](const scene::Tendon&) { return EI / (L * L); });
+    case UnknownKind::place: return L;
+    case UnknownKind::rest_curvature: return 1 / L;
+    case UnknownKind::bending_factor:
+    case UnknownKind::torsion_factor: break;
+  }
+  return 1;
+}
+
+double within_bounds(const Unknown& unknown, const scene::EstimationProblem& problem, double value) {
+  const scene::Scene& scene = problem.scenes[unknown.scene].scene;
+  switch (unknown.kind) {
+    case UnknownKind::place: return std::clamp(value, 0.0, scene::length_mm(scene));
+    case UnknownKind::component:
+      return scene::tendon_of(scene.loads[unknown.index]) != nullptr ? std::max(value, 0.0) : value;
+    case UnknownKind::bending_factor:
+    case UnknownKind::torsion_factor: return std::max(value, least_factor);
+    case UnknownKind::rest_curvature: break;
+  }
+  return value;
+}
+
+EstimatedRods::EstimatedRods(const scene::EstimationProblem& problem, const Options& options)
+    : now_(problem), values_(problem.unknowns.size()), options_(options), solvers_(problem.scenes.size()) {
+  if (options_.arcs == 0 && !(options_.tolerance_mm > 0))
+    options_.tolerance_mm = model_tolerance_over_L * scene::length_mm(problem.scenes.front().scene);
+  options_.reserved_arcs = std::min(options_.reserved_arcs, first_reserved_arcs);
+  for (const scene::MeasuredScene& measured : problem.scenes) sections_.push_back(measured.scene.sections);
+  for (const Unknown& unknown : problem.unknowns) has_sections_ |= is_of_section(unknown);
+}
+
+void EstimatedRods::put(std::span<const double> values) {
+  std::copy(values.begin(), values.end(), values_.begin());
+  if (has_sections_) {
+    for (std::size_t i = 0; i < sections_.size(); ++i) now_.scenes[i].scene.sections = sections_[i];
+  }
+  put_into(now_);
+}
+
+void EstimatedRods::put_into(scene::EstimationProblem& problem) const {
+  for (std::size_t i = 0; has_sections_ && i < sections_.size(); ++i) problem.scenes[i].scene.sections = sections_[i];
+  for (std::size_t k = 0; k < values_.size(); ++k) scene::put(problem, now_.unknowns[k], values_[k]);
+}
+
+void EstimatedRods::set_loads(Solver& solver, std::size_t scene) const {
+  for (const Unknown& u : now_.unknowns) {
+    if (is_of_section(u) || u.scene != scene) continue;
+    const bool place = u.kind == UnknownKind::place;
+    scene::visit_load(
+        now_.scenes[scene].scene.loads[u.index],
+        [&](const scene::Force& load) {
+          place ? solver.set_at_mm(u.index, load.at_mm) : solver.set_force_N(u.index, load.value_N);
+        },
+        [&](const scene::Moment& load) {
+          place ? solver.set_at_mm(u.index, load.at_mm) : solver.set_moment_Nmm(u.index, load.value_Nmm);
+        },
+        [&](const scene::DistributedForce& load) { solver.set_distributed_N_per_mm(u.index, load.value_N_per_mm); },
+        [&](const scene::Gravity& load) { solver.set_acceleration_m_per_s2(u.index, load.acceleration_m_per_s2); },
+        [&](const scene::Tendon& load) { solver.set_tension_N(u.index, load.tension_N); });
+  }
+}
+
+bool EstimatedRods::make(std::size_t scene) {
+  auto made = Solver::make(now_.scenes[scene].scene, options_);
+  if (const auto* refusal = std::get_if<Refusal>(&made)) {
+    status_ = refusal->status;
+    message_ = refusal->message;
+    return false;
+  }
+  solvers_[scene].emplace(std::move(std::get<Solver>(made)));
+  return true;
+}
+
+bool EstimatedRods::solve(std::size_t scene) {
+  const bool kept = solvers_[scene] && !has_sections_;
+  if (kept) set_loads(*solvers_[scene], scene);
+  else if (!make(scene)) return false;
+  Solver::Outcome outcome = solvers_[scene]->solve();
+  if (!outcome.converged() && kept) outcome = solvers_[scene]->solve(Solver::Start::unloaded);
+  while (outcome.status == Status::tolerance_not_met && options_.reserved_arcs < most_reserved_arcs) {
+    options_.reserved_arcs *= 2;
+    if (!make(scene)) return false;
+    outcome = solvers_[scene]->solve();
+  }
+  status_ = outcome.status;
+  if (!outcome.converged()) message_ = outcome.message;
+  return outcome.converged();
+}
+
+}  // namespace fam

@@ -1,0 +1,51 @@
+// The rods of an estimation problem, solved for one set of values of the unknowns after another.
+#pragma once
+
+#include "fam/solver.h"
+
+#include "scene/estimation.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace fam {
+
+// The unit of an unknown: EI/L^2, EI/L, L, 1, 1/L of the first section.
+double unit_of(const scene::Unknown& unknown, const scene::EstimationProblem& problem);
+
+// The nearest value that the scene can have: places on the rod, tensions that pull, factors above zero.
+double within_bounds(const scene::Unknown& unknown, const scene::EstimationProblem& problem, double value);
+
+class EstimatedRods {
+ public:
+  // Options as of Estimator.
+  EstimatedRods(const scene::EstimationProblem& problem, const Options& options);
+
+  // Values of the unknowns in the units of the scene.
+  void put(std::span<const double> values);
+  // What was put last.
+  void put_into(scene::EstimationProblem& problem) const;
+
+  // From the solution before, or, where that fails, from no load. A solver that reserves too few arcs is made anew.
+  bool solve(std::size_t scene);
+  const Solver& solver(std::size_t scene) const { return *solvers_[scene]; }
+  // Why solve() failed.
+  scene::Status status() const { return status_; }
+  const std::string& message() const { return message_; }
+
+ private:
+  bool make(std::size_t scene);
+  void set_loads(Solver& solver, std::size_t scene) const;
+
+  scene::EstimationProblem now_;
+  std::vector<std::vector<scene::Section>> sections_;  // before any factor
+  std::vector<double> values_;
+  Options options_;
+  std::vector<std::optional<Solver>> solvers_;
+  bool has_sections_ = false;  // among the unknowns
+  scene::Status status_ = scene::Status::converged;
+  std::string message_;
+};
+
+}  // namespace fam

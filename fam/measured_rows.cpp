@@ -1,0 +1,175 @@
+#include "fam/measured_rows.h"
+
+#include "fam/rotation.h"
+#include "fam/skew.h"
+
+#include <cmath>
+
+namespace fam {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using scene::Measurement;
+using scene::Unknown;
+using Kind = scene::Unknown::Kind;
+using Vector6 = Solver::Vector6;
+using Matrix63 = Solver::Matrix63;
+
+// The section at a place, that towards the clamp at a border.
+std::size_t section_at(const scene::Scene& scene, double s_mm) {
+  double end_mm = 0;
+  for (std::size_t i = 0; i + 1 < scene.sections.size(); ++i) {
+    end_mm += scene.sections[i].length_mm;
+    if (s_mm <= end_mm) return i;
+  }
+  return scene.sections.size() - 1;
+}
+
+// The total u of a solution.
+Vector3d strain_at(const Solver& solver, double s_mm) {
+  const scene::Scene& scene = solver.scene();
+  const scene::Section& section = scene.sections[section_at(scene, s_mm)];
+  const scene::Stiffness stiffness = scene::stiffness_of(section);
+  const Vector3d moment_S_Nmm = solver.pose_at(s_mm).rotation_BS.transpose() * solver.wrench_at(s_mm).moment_Nmm;
+  return section.rest_curvature_per_mm +
+         moment_S_Nmm.cwiseQuotient(
+             Vector3d(stiffness.torsion_Nmm2, stiffness.bending_Nmm2[0], stiffness.bending_Nmm2[1]));
+}
+
+// What the six rows of pose, strain and wrench are by an unknown.
+enum class Of { pose, strain, wrench };
+
+Matrix63 by_load(const Solver& solver, Of of, std::size_t load, double s_mm) {
+  if (of == Of::pose) return solver.by_load(load, s_mm);
+  if (of == Of::strain) return solver.strain_by_load(load, s_mm);
+  return solver.wrench_by_load(load, s_mm);
+}
+
+Vector6 by_place(const Solver& solver, Of of, std::size_t load, double s_mm) {
+  if (of == Of::pose) return solver.by_place(load, s_mm);
+  if (of == Of::strain) return solver.strain_by_place(load, s_mm);
+  return solver.wrench_by_place(load, s_mm);
+}
+
+Matrix63 by_rest_curvature(const Solver& solver, Of of, std::size_t section, double s_mm) {
+  if (of == Of::pose) return solver.by_rest_curvature(section, s_mm);
+  if (of == Of::strain) return solver.strain_by_rest_curvature(section, s_mm);
+  return solver.wrench_by_rest_curvature(section, s_mm);
+}
+
+Matrix63 by_stiffness(const Solver& solver, Of of, std::size_t section, double s_mm) {
+  if (of == Of::pose) return solver.by_stiffness(section, s_mm);
+  if (of == Of::strain) return solver.strain_by_stiffness(section, s_mm);
+  return solver.wrench_by_stiffness(section, s_mm);
+}
+
+// By the unknowns at one place, in the unit of the scene; the components of a load that follow each other are asked for
+// once.
+class Derivatives {
+ public:
+  Derivatives(const Solver& solver, const scene::Scene& given, Of of, double s_mm)
+      : solver_(solver), given_(given), of_(of), s_mm_(s_mm) {}
+
+  Vector6 by(const Unknown& unknown) {
+    switch (unknown.kind) {
+      case Kind::component:
+        if (unknown.index != load_) by_load_ = by_load(solver_, of_, load_ = unknown.index, s_mm_);
+        return by_load_.col(unknown.component);
+      case Kind::place: return by_place(solver_, of_, unknown.index, s_mm_);
+      case Kind::rest_curvature: return by_rest_curvature(solver_, of_, unknown.index, s_mm_).col(unknown.component);
+      case Kind::bending_factor:
+      case Kind::torsion_factor: break;
+    }
+    const scene::Stiffness stiffness = scene::stiffness_of(given_.sections[unknown.index]);
+    const Vector3d change_Nmm2 = unknown.kind == Kind::bending_factor
+                                     ? Vector3d(0, stiffness.bending_Nmm2[0], stiffness.bending_Nmm2[1])
+                                     : Vector3d(stiffness.torsion_Nmm2, 0, 0);
+    return by_stiffness(solver_, of_, unknown.index, s_mm_) * change_Nmm2;
+  }
+
+ private:
+  const Solver& solver_;
+  const scene::Scene& given_;
+  Of of_;
+  double s_mm_;
+  std::size_t load_ = static_cast<std::size_t>(-1);
+  Matrix63 by_load_;
+};
+
+// d phi of log(exp(d phi) R) at the rotation vector r: the inverse left Jacobian of SO(3).
+Eigen::Matrix3d inverse_left_jacobian(const Vector3d& r) {
+  const double angle2 = r.squaredNorm(), angle = std::sqrt(angle2);
+  const double c =
+      angle < 1e-3 ? 1.0 / 12 + angle2 / 720 : 1 / angle2 - (1 + std::cos(angle)) / (2 * angle * std::sin(angle));
+  const Eigen::Matrix3d cross = skew(r);
+  return Eigen::Matrix3d::Identity() - 0.5 * cross + c * cross * cross;
+}
+
+// Pose, strain or wrench, where, and how the measured rows follow from its six.
+struct Projection {
+  Of of;
+  double s_mm;
+  Eigen::Matrix<double, 6, 6> rows = Eigen::Matrix<double, 6, 6>::Zero();  // the first rows_of()
+};
+
+Vector3d turn_off(const Solver& solver, double s_mm, const scene::RotationMeasurement& m) {
+  return rotation_vector(Matrix3d(solver.pose_at(s_mm).rotation_BS * m.rotation_BS.transpose()));
+}
+
+Projection projection_of(const Solver& solver, const Measurement& measurement) {
+  Projection to{Of::pose, measurement.s_mm};
+  if (const auto* position = std::get_if<scene::PositionMeasurement>(&measurement.value)) {
+    to.rows.topLeftCorner<3, 3>() = Matrix3d::Identity() / position->sd_mm;
+  } else if (const auto* rotation = std::get_if<scene::RotationMeasurement>(&measurement.value)) {
+    to.rows.topRightCorner<3, 3>() =
+        inverse_left_jacobian(turn_off(solver, measurement.s_mm, *rotation)) / rotation->sd_rad;
+  } else if (const auto* curvature = std::get_if<scene::CurvatureMeasurement>(&measurement.value)) {
+    to.of = Of::strain;
+    to.rows(0, 1) = to.rows(1, 2) = 1 / curvature->sd_per_mm;
+  } else {
+    const auto& wrench = std::get<scene::BaseWrenchMeasurement>(measurement.value);
+    to.of = Of::wrench;
+    to.s_mm = 0;
+    to.rows.topLeftCorner<3, 3>() = Matrix3d::Identity() / wrench.sd_N;
+    to.rows.bottomRightCorner<3, 3>() = Matrix3d::Identity() / wrench.sd_Nmm;
+  }
+  return to;
+}
+
+}  // namespace
+
+int rows_of(const Measurement& measurement) {
+  if (std::holds_alternative<scene::BaseWrenchMeasurement>(measurement.value)) return 6;
+  return std::holds_alternative<scene::CurvatureMeasurement>(measurement.value) ? 2 : 3;
+}
+
+void put_residual(const Solver& solver, const Measurement& measurement, Eigen::Ref<VectorXd> rows) {
+  const double s_mm = measurement.s_mm;
+  if (const auto* position = std::get_if<scene::PositionMeasurement>(&measurement.value)) {
+    rows = (solver.pose_at(s_mm).position_B_mm - position->position_B_mm) / position->sd_mm;
+  } else if (const auto* rotation = std::get_if<scene::RotationMeasurement>(&measurement.value)) {
+    rows = turn_off(solver, s_mm, *rotation) / rotation->sd_rad;
+  } else if (const auto* curvature = std::get_if<scene::CurvatureMeasurement>(&measurement.value)) {
+    rows = (strain_at(solver, s_mm).tail<2>() - curvature->curvature_S_per_mm) / curvature->sd_per_mm;
+  } else {
+    const auto& measured = std::get<scene::BaseWrenchMeasurement>(measurement.value);
+    const scene::Wrench wrench = solver.base_wrench_B();
+    rows.head<3>() = (wrench.force_N - measured.wrench_B.force_N) / measured.sd_N;
+    rows.tail<3>() = (wrench.moment_Nmm - measured.wrench_B.moment_Nmm) / measured.sd_Nmm;
+  }
+}
+
+void put_slopes(const Solver& solver, const scene::MeasuredScene& given, std::size_t scene,
+                const std::vector<Unknown>& unknowns, const Measurement& measurement, Eigen::Ref<MatrixXd> rows) {
+  const Projection to = projection_of(solver, measurement);
+  Derivatives derivatives(solver, given.scene, to.of, to.s_mm);
+  for (std::size_t k = 0; k < unknowns.size(); ++k) {
+    if (!is_of_section(unknowns[k]) && unknowns[k].scene != scene) continue;
+    const Vector6 column = to.rows * derivatives.by(unknowns[k]);
+    rows.col(static_cast<Eigen::Index>(k)) = column.head(rows.rows());
+  }
+}
+
+}  // namespace fam
