@@ -30,7 +30,7 @@ namespace studies {
   row(population, "What could have made the printed numbers?", "3 min", false) \
   row(limits, "Why is there no answer?", "5 min", true) \
   row(walks, "Does a kept solver stay on its branch?", "15 min", true) \
-  row(campaign, "How rarely is an answer wrong, of a million?", "3 h", true) \
+  row(campaign, "How rarely is an answer wrong?", "1 h", true) \
   row(random, "Is an answer ever wrong without saying so?", "30 min", true)
 // clang-format on
 
