@@ -27,6 +27,7 @@ namespace studies {
   row(stream, "How fast is a kept solver on a stream of loads?", "10 s", false) \
   row(batch, "How many rods a second?", "1 min", false) \
   row(third_party, "What does a finite element code say that we did not write?", "2 min", false) \
+  row(sensing, "What does the rod touch, and how sure are we?", "20 s", false) \
   row(limits, "Why is there no answer?", "5 min", true) \
   row(walks, "Does a kept solver stay on its branch?", "15 min", true) \
   row(random, "Is an answer ever wrong without saying so?", "30 min", true)
