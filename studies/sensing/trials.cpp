@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include <cmath>
+#include <exception>
 
 namespace studies {
 namespace {
@@ -66,7 +67,12 @@ SensingResult of_truth(const SensingSettings& settings, std::uint64_t seed, cons
         state(measurement, settings.stated);
       }
     }
-    count(fam::Estimator(trial, settings.options).estimate(), problem, sum);
+    try {
+      count(fam::Estimator(trial, settings.options).estimate(), problem, sum);
+    } catch (const std::exception&) {  // a step to numbers that are no scene
+      ++sum.trials;
+      ++sum.not_converged;
+    }
   }
   return sum;
 }
