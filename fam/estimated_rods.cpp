@@ -15,6 +15,7 @@ using UnknownKind = scene::Unknown::Kind;
 
 // Chosen, not measured.
 constexpr double model_tolerance_over_L = 1e-6;
+constexpr double least_place_over_L = 1e-9;                           // at the clamp itself no load can stand
 constexpr double least_factor = 0.01;                                 // of a stiffness
 constexpr int first_reserved_arcs = 64, most_reserved_arcs = 65'536;  // memory for 1024 costs as much as a solve
 
@@ -47,7 +48,10 @@ double unit_of(const Unknown& unknown, const scene::EstimationProblem& problem) 
 double within_bounds(const Unknown& unknown, const scene::EstimationProblem& problem, double value) {
   const scene::Scene& scene = problem.scenes[unknown.scene].scene;
   switch (unknown.kind) {
-    case UnknownKind::place: return std::clamp(value, 0.0, scene::length_mm(scene));
+    case UnknownKind::place: {
+      const double length_mm = scene::length_mm(scene);
+      return std::clamp(value, least_place_over_L * length_mm, length_mm);
+    }
     case UnknownKind::component:
       return scene::tendon_of(scene.loads[unknown.index]) != nullptr ? std::max(value, 0.0) : value;
     case UnknownKind::bending_factor:
