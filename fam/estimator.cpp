@@ -25,7 +25,7 @@ using UnknownKind = scene::Unknown::Kind;
 
 // All chosen, not measured.
 constexpr int most_iterations = 200;
-constexpr double first_damping = 1e-3, least_damping = 1e-12, most_damping = 1e12;
+constexpr double first_damping = 1e-3, warm_damping = 1e-9, least_damping = 1e-12, most_damping = 1e12;
 constexpr double least_scaling = 1e-6;  // of the damping matrix, of its largest
 constexpr double converged_decrease = 1e-8;
 constexpr double least_information = 1e-12;  // of the largest, below which a step would be round-off
@@ -168,7 +168,7 @@ struct Estimator::Impl {
 
   bool minimise() {
     if (!evaluate(x, residual, slopes)) return false;
-    double damping = first_damping, chi_squared = residual.squaredNorm();
+    double damping = result.converged() ? warm_damping : first_damping, chi_squared = residual.squaredNorm();
     for (result.iterations = 0; result.iterations < most_iterations; ++result.iterations) {
       information.noalias() = slopes.transpose() * slopes;
       gradient.noalias() = slopes.transpose() * residual;

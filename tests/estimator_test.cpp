@@ -186,6 +186,10 @@ TEST(Estimator, ForceNextToTheClampIsNotObservable) {
   ASSERT_TRUE(found.converged()) << found.message;
   EXPECT_EQ(found.observable, (std::vector<bool>{false, true}));
   EXPECT_NEAR(found.mean[1], 0.2, 1e-4);
+  EXPECT_TRUE(std::isnan(found.sd[0]));
+  // Twin: at 0.3 L it can be observed.
+  std::get<scene::Force>(problem.scenes[0].scene.loads[0]).at_mm = 0.3 * L_mm;
+  EXPECT_EQ(Estimator(problem).estimate().observable, (std::vector<bool>{true, true}));
 }
 
 TEST(Estimator, TwoForcesAtOnePlaceAreNotObservable) {
@@ -198,6 +202,10 @@ TEST(Estimator, TwoForcesAtOnePlaceAreNotObservable) {
   EXPECT_EQ(found.observable, (std::vector<bool>{false, false}));
   ASSERT_EQ(found.unobservable.size(), 1u);
   EXPECT_NEAR(std::abs(found.unobservable[0].dot(Eigen::Vector2d(1, -1).normalized())), 1, 1e-6);
+  // Twin: apart, and with two positions, both can.
+  std::get<scene::Force>(problem.scenes[0].scene.loads[1]).at_mm = 35;
+  problem.scenes[0].measurements.push_back(position(exact_station(exact, 20), 0.01));
+  EXPECT_EQ(Estimator(problem).estimate().observable, (std::vector<bool>{true, true}));
 }
 
 // One rod, three poses under known loads: its stiffness and rest curvature.
