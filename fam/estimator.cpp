@@ -33,7 +33,6 @@ constexpr double longest_step = 2;           // in the unknowns' own units
 constexpr double longest_place_step = 0.2;   // of the length
 constexpr double good_share = 0.9;           // of the decrease that a step promised: the damping falls fast
 constexpr int more_starts = 12;              // where places are unknown and the first minimum does not fit
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 // The digits of a number mirrored at the point: 1/2, 1/4, 3/4, ... of base 2 (Halton, Numer. Math. 2, 1960).
 double radical_inverse(int number, int base) {
@@ -65,7 +64,7 @@ struct Estimator::Impl {
     for (Index k = 0; k < x.size(); ++k) {
       unit[k] = unit_of(unknown(k), given);
       x[k] = unknown(k).prior_mean / unit[k];
-      prior_sd[k] = unknown(k).prior_sd ? *unknown(k).prior_sd / unit[k] : nan_value;
+      prior_sd[k] = unknown(k).prior_sd ? *unknown(k).prior_sd / unit[k] : std::numeric_limits<double>::quiet_NaN();
     }
     bound(x);
   }

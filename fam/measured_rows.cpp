@@ -13,7 +13,6 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using scene::Measurement;
 using scene::Unknown;
-using Kind = scene::Unknown::Kind;
 using Vector6 = Solver::Vector6;
 using Matrix63 = Solver::Matrix63;
 
@@ -74,16 +73,17 @@ class Derivatives {
 
   Vector6 by(const Unknown& unknown) {
     switch (unknown.kind) {
-      case Kind::component:
+      case Unknown::Kind::component:
         if (unknown.index != load_) by_load_ = by_load(solver_, of_, load_ = unknown.index, s_mm_);
         return by_load_.col(unknown.component);
-      case Kind::place: return by_place(solver_, of_, unknown.index, s_mm_);
-      case Kind::rest_curvature: return by_rest_curvature(solver_, of_, unknown.index, s_mm_).col(unknown.component);
-      case Kind::bending_factor:
-      case Kind::torsion_factor: break;
+      case Unknown::Kind::place: return by_place(solver_, of_, unknown.index, s_mm_);
+      case Unknown::Kind::rest_curvature:
+        return by_rest_curvature(solver_, of_, unknown.index, s_mm_).col(unknown.component);
+      case Unknown::Kind::bending_factor:
+      case Unknown::Kind::torsion_factor: break;
     }
     const scene::Stiffness stiffness = scene::stiffness_of(given_.sections[unknown.index]);
-    const Vector3d change_Nmm2 = unknown.kind == Kind::bending_factor
+    const Vector3d change_Nmm2 = unknown.kind == Unknown::Kind::bending_factor
                                      ? Vector3d(0, stiffness.bending_Nmm2[0], stiffness.bending_Nmm2[1])
                                      : Vector3d(stiffness.torsion_Nmm2, 0, 0);
     return by_stiffness(solver_, of_, unknown.index, s_mm_) * change_Nmm2;

@@ -13,11 +13,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double least_information = 1e-12, widest_posterior = 0.9;  // of what counts as observed: the contract's
-constexpr double unobserved_share = 0.01;                            // chosen, not measured
+constexpr double observed_information = 1e-12, widest_posterior = 0.9;  // of what counts as observed: the contract's
+constexpr double unobserved_share = 0.01;                               // chosen, not measured
 
 constexpr double normal_999 = 3.0902;  // the normal quantile that one in 1000 exceeds
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -29,7 +29,7 @@ Posterior::Posterior(Index unknowns)
       width_(unknowns),
       hidden_(unknowns) {}
 
-// In units of the priors, where there is none one so wide that least_information is what counts as observed.
+// In units of the priors, where there is none one so wide that observed_information is what counts as observed.
 void Posterior::set(const Eigen::Ref<const MatrixXd>& slopes, const VectorXd& prior_sd) {
   const Index count = prior_sd.size();
   const double least = 1 / (widest_posterior * widest_posterior) - 1;  // information over the prior's
@@ -38,7 +38,7 @@ void Posterior::set(const Eigen::Ref<const MatrixXd>& slopes, const VectorXd& pr
   diagonalise(diagonal_, vectors_);
   const double largest = std::max(diagonal_.diagonal().maxCoeff(), std::numeric_limits<double>::min());
   for (Index k = 0; k < count; ++k)
-    width_[k] = std::isnan(prior_sd[k]) ? std::sqrt(least / (least_information * largest)) : prior_sd[k];
+    width_[k] = std::isnan(prior_sd[k]) ? std::sqrt(least / (observed_information * largest)) : prior_sd[k];
   for (Index i = 0; i < count; ++i)
     for (Index k = 0; k < count; ++k) information_(i, k) *= width_[i] * width_[k];
   diagonalise(information_, vectors_);
@@ -78,13 +78,13 @@ void tell(const Posterior& posterior, const VectorXd& x, const VectorXd& unit, E
   for (Index k = 0; k < x.size(); ++k) {
     const bool observable = posterior.is_observable(k);
     estimate.observable[static_cast<std::size_t>(k)] = observable;
-    estimate.mean[k] = observable ? x[k] * unit[k] : nan_value;
-    estimate.sd[k] = observable ? std::sqrt(estimate.covariance(k, k)) : nan_value;
+    estimate.mean[k] = observable ? x[k] * unit[k] : no_number;
+    estimate.sd[k] = observable ? std::sqrt(estimate.covariance(k, k)) : no_number;
   }
   for (Index k = 0; k < x.size(); ++k) {
     if (estimate.observable[static_cast<std::size_t>(k)]) continue;
-    estimate.covariance.row(k).setConstant(nan_value);
-    estimate.covariance.col(k).setConstant(nan_value);
+    estimate.covariance.row(k).setConstant(no_number);
+    estimate.covariance.col(k).setConstant(no_number);
   }
   estimate.unobservable = posterior.unobservable();
 }
