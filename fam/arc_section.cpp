@@ -29,6 +29,11 @@ void set_tendons(std::vector<BasicTendon<D>>& tendons, const SpanOnWay& span) {
   }
 }
 
+Vector3d angular_compliance(const scene::Span& span) {
+  const scene::Stiffness& K = span.stiffness;
+  return Vector3d(K.torsion_Nmm2, K.bending_Nmm2[0], K.bending_Nmm2[1]).cwiseInverse();
+}
+
 }  // namespace
 
 template <int D>
@@ -36,9 +41,7 @@ void set_constants(BasicArcConstants<D>& arc, std::vector<BasicTendon<D>>& tendo
                    double length_mm, RodModel model) {
   const scene::Stiffness& stiffness = span.to.stiffness;
   const double h = length_mm;
-  const Vector3d bending_and_torsion(stiffness.torsion_Nmm2, stiffness.bending_Nmm2[0], stiffness.bending_Nmm2[1]);
   arc.length_mm = h;
-  arc.angular_compliance = h * angular_part<D>(bending_and_torsion.cwiseInverse());
   arc.rest_translation_mm = h * Vector<double, D>::Unit(0);
   Vector3d compliance = Vector3d::Zero();
   if (model == RodModel::reissner) {
@@ -51,6 +54,8 @@ void set_constants(BasicArcConstants<D>& arc, std::vector<BasicTendon<D>>& tendo
 
 template <int D>
 void set_share(BasicArcConstants<D>& arc, std::vector<BasicTendon<D>>& tendons, const SpanOnWay& span, RodModel model) {
+  arc.angular_compliance =
+      arc.length_mm * angular_part<D>(span.between(angular_compliance(span.from), angular_compliance(span.to)));
   arc.straight_tendons = D == 2 && model == RodModel::kirchhoff;
   arc.rest_rotation =
       arc.length_mm * angular_part<D>(span.between(span.from.rest_curvature_per_mm, span.to.rest_curvature_per_mm));

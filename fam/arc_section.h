@@ -39,8 +39,8 @@ Angular<double, D> angular_part(const Vector3d& w) {
 
 using scene::RodModel;
 
-// A span's loads and rest curvature on the straight line from those that it had to those that it gets; all else of the
-// two is the same. share: 0 to 1.
+// A span's loads, rest curvature and compliances 1/GJ, 1/EI on the straight line from those that it had to those that
+// it gets; all else of the two is the same. share: 0 to 1.
 struct SpanOnWay {
   const scene::Span& from;
   const scene::Span& to;

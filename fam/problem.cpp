@@ -34,6 +34,8 @@ void set_larger(std::span<const Span> a, std::span<const Span> b, scene::Reused<
   larger.assign(a);
   for (std::size_t i = 0; i < a.size(); ++i) {
     Span& span = larger[i];
+    span.stiffness.torsion_Nmm2 = std::min(span.stiffness.torsion_Nmm2, b[i].stiffness.torsion_Nmm2);
+    span.stiffness.bending_Nmm2 = span.stiffness.bending_Nmm2.cwiseMin(b[i].stiffness.bending_Nmm2);
     enlarge(span.rest_curvature_per_mm, b[i].rest_curvature_per_mm);
     enlarge(span.follower_load_S, b[i].follower_load_S);
     enlarge(span.fixed_load_B, b[i].fixed_load_B);

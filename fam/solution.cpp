@@ -48,7 +48,8 @@ double Solution::length_of_arc_mm(std::size_t span) const {
 
 Place Solution::place_at(double s_mm) const {
   const std::span<const scene::Span> spans = problem_->spans();
-  const auto end = std::lower_bound(spans.begin(), spans.end(), s_mm,
+  const double hair_mm = scene::same_place_relative * problem_->length_mm();
+  const auto end = std::lower_bound(spans.begin(), spans.end(), s_mm - hair_mm,
                                     [](const scene::Span& span, double s) { return span.end_mm < s; });
   const auto i = static_cast<std::size_t>(std::min(end - spans.begin(), std::ptrdiff_t(spans.size()) - 1));
   const double arcs = std::max(0.0, (s_mm - spans[i].start_mm) / length_of_arc_mm(i));

@@ -110,6 +110,7 @@ Status Solver::Impl::solve_with_arcs(Attempt& attempt, bool on) {
 // load.
 Solver::Outcome Solver::Impl::solve(Start start) {
   Attempt& attempt = next();
+  has_previous = false;
   const bool on = start == Start::last_solution && solved;
   if (on) attempt.problem.set(scene, options, solved->problem);
   else attempt.problem.set(scene, options);
@@ -146,6 +147,7 @@ bool Solver::Impl::refine(Attempt& attempt) {
 }
 
 void Solver::Impl::accept(Attempt& attempt) {
+  has_previous = solved;
   solved = &attempt;
   solution.set(attempt.problem, attempt.run);
   tip = solution.pose({solution.arc_count() - 1, 1});
@@ -175,6 +177,11 @@ const scene::Scene& Solver::scene() const {
 
 Solver::Outcome Solver::solve(Start start) noexcept {
   return impl_->solve(start);
+}
+
+bool Solver::go_back() noexcept {
+  if (impl_->has_previous) impl_->accept(impl_->next());
+  return impl_->has_previous;
 }
 
 }  // namespace fam

@@ -59,12 +59,14 @@ class Solver {
   // A point load moves along the rod.
   void set_at_mm(std::size_t load, double s_mm);
   void set_rest_curvature_per_mm(std::size_t section, const Eigen::Vector3d& rest_curvature_per_mm);
+  // GJ, EI_y, EI_z; EA, GA and the mass stay as they are.
+  void set_stiffness_Nmm2(std::size_t section, const Eigen::Vector3d& GJ_EIy_EIz_Nmm2);
   // With the values set.
   const scene::Scene& scene() const;
 
   // unloaded: the equilibrium that the rod reaches when all loads grow together from zero. last_solution: from the
-  // loads solved last along the straight line between, on their branch (a load that has moved fades out at its old
-  // place and in at the new); as unloaded before a first solution.
+  // loads (and compliances) solved last along the straight line between, on their branch (a load that has moved fades
+  // out at its old place and in at the new); as unloaded before a first solution.
   enum class Start { unloaded, last_solution };
   // The statuses of solve() (fam/solve.h) and limit_point: a fold met on the way. Unless converged the last solution
   // stays.
@@ -75,6 +77,10 @@ class Solver {
     bool converged() const { return status == scene::Status::converged; }
   };
   Outcome solve(Start start = Start::last_solution) noexcept;
+
+  // The solution before the last one counts as the last again, which becomes the one before; values set stay. False:
+  // there is none, or a solve that failed has taken its memory.
+  bool go_back() noexcept;
 
   bool solved() const noexcept;  // there is a solution
   const scene::Pose& tip() const;

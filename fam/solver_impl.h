@@ -26,6 +26,7 @@ struct Solver::Impl {
   int reserved_arcs = 0;
   std::array<Attempt, 2> attempts;
   Attempt* solved = nullptr;  // the solution found last
+  bool has_previous = false;  // the other attempt is the one before
   Solution solution;          // of it
   scene::Pose tip = no_pose;
   std::array<Run, 2> spare;
@@ -62,7 +63,9 @@ struct Solver::Impl {
   bool take_states_for_changes();
   Response* prepared_response();
   double estimate_mm();
-  bool is_on_rod(double s_mm) const { return solved && s_mm >= 0 && s_mm <= solved->problem.length_mm(); }
+  bool is_on_rod(double s_mm) const {
+    return solved && s_mm >= 0 && s_mm <= solved->problem.length_mm() * (1 + scene::same_place_relative);
+  }
 };
 
 }  // namespace fam

@@ -1,4 +1,4 @@
-// New loads, places and rest curvatures of a Solver.
+// New loads, places, rest curvatures and stiffnesses of a Solver.
 #include "fam/solver_impl.h"
 
 #include "scene/load_visitor.h"
@@ -30,6 +30,13 @@ Kind& kind_of(scene::Scene& scene, std::size_t load) {
   if (std::string_view(scene::kind_name(scene.loads[load])) != wanted)
     throw scene::SceneError(name_of(load) + ".kind = " + scene::kind_name(scene.loads[load]) + ": must be " + wanted);
   return std::get<Kind>(scene.loads[load]);
+}
+
+scene::Section& section_of(scene::Scene& scene, std::size_t section) {
+  if (section >= scene.sections.size())
+    throw scene::SceneError("scene: rod.sections[" + std::to_string(section) + "]: there are " +
+                            std::to_string(scene.sections.size()) + " sections");
+  return scene.sections[section];
 }
 
 bool is_a_moment(const scene::Load& load) {
@@ -69,14 +76,23 @@ void Solver::set_at_mm(std::size_t load, double s_mm) {
   else set_value(impl_->scene, load, &scene::Force::at_mm, s_mm, is_good);
 }
 void Solver::set_rest_curvature_per_mm(std::size_t section, const Vector3d& rest_curvature_per_mm) {
-  std::vector<scene::Section>& sections = impl_->scene.sections;
-  if (section >= sections.size())
-    throw scene::SceneError("scene: rod.sections[" + std::to_string(section) + "]: there are " +
-                            std::to_string(sections.size()) + " sections");
+  section_of(impl_->scene, section);
   if (!rest_curvature_per_mm.allFinite())
     refuse(impl_->scene,
            [&](scene::Scene& copy) { copy.sections[section].rest_curvature_per_mm = rest_curvature_per_mm; });
-  sections[section].rest_curvature_per_mm = rest_curvature_per_mm;
+  section_of(impl_->scene, section).rest_curvature_per_mm = rest_curvature_per_mm;
+}
+void Solver::set_stiffness_Nmm2(std::size_t section, const Vector3d& GJ_EIy_EIz_Nmm2) {
+  const auto put = [&](scene::Scene& scene) {
+    scene::Section& changed = section_of(scene, section);
+    scene::Stiffness stiffness = scene::stiffness_of(changed);
+    stiffness.torsion_Nmm2 = GJ_EIy_EIz_Nmm2[0];
+    stiffness.bending_Nmm2 = GJ_EIy_EIz_Nmm2.tail<2>();
+    changed.cross_section = stiffness;
+  };
+  section_of(impl_->scene, section);
+  if (!(GJ_EIy_EIz_Nmm2.allFinite() && GJ_EIy_EIz_Nmm2.minCoeff() > 0)) refuse(impl_->scene, put);
+  put(impl_->scene);
 }
 
 }  // namespace fam

@@ -201,6 +201,8 @@ class Solver:
         """mm from the clamp: where a force or a moment acts from now on."""
     def set_rest_curvature_per_mm(self, section: int, value: ArrayLike) -> None:
         """(3,), 1/mm: torsion, bending about y, about z."""
+    def set_stiffness_Nmm2(self, section: int, value: ArrayLike) -> None:
+        """(3,), N mm^2: GJ, EI_y, EI_z."""
     def solve(self, start: Literal["last", "unloaded"] = "last") -> Outcome:
         """Solves for the values set.
 

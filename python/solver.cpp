@@ -116,7 +116,15 @@ void add_setters(py::class_<KeptSolver>& solver) {
                                                  vector_of(value, "rod.sections", section, ".rest_curvature_per_mm"));
           },
           py::arg("section"), py::arg("value"),
-          "set_rest_curvature_per_mm(section, value)\n\nvalue: (3,), 1/mm: torsion, bending about y, about z");
+          "set_rest_curvature_per_mm(section, value)\n\nvalue: (3,), 1/mm: torsion, bending about y, about z")
+      .def(
+          "set_stiffness_Nmm2",
+          [](KeptSolver& kept, py::ssize_t section, py::handle value) {
+            kept.use().set_stiffness_Nmm2(kept.section_to_set(section),
+                                          vector_of(value, "rod.sections", section, ".stiffness"));
+          },
+          py::arg("section"), py::arg("value"),
+          "set_stiffness_Nmm2(section, value)\n\nvalue: (3,), N mm^2: GJ, EI_y, EI_z");
 }
 
 void add_shape(py::class_<KeptSolver>& solver) {

@@ -57,6 +57,7 @@ class Joystick {
     solver.set_moment_Nmm(5, vector(8));
     solver.set_distributed_N_per_mm(6, vector(0.003));
     solver.set_rest_curvature_per_mm(1, vector(0.005));
+    solver.set_stiffness_Nmm2(1, {number(500, 1500), number(1000, 2000), number(1000, 2000)});
     if (number(0, 1) > 0.7) solver.set_at_mm(4, number(1, 100));
     if (number(0, 1) > 0.7) solver.set_at_mm(5, number(1, 100));
   }
@@ -140,6 +141,27 @@ TEST(Solver, WarmIsCold) {
   EXPECT_GT(stiffer_mm, 0.1);
 }
 
+TEST(Solver, GoesBackToTheSolutionBefore) {
+  Solver solver = kept(uniform_rod(100, slender(1000, 700), {scene::Force{100, Frame::fixed, {0, 0.1, 0}}}), {});
+  EXPECT_FALSE(solver.go_back());
+  ASSERT_TRUE(solver.solve().converged());
+  EXPECT_FALSE(solver.go_back());
+  const Vector3d first_mm = solver.tip().position_B_mm;
+  const Solver::Matrix63 first_slope = solver.by_load(0, 100);
+  solver.set_force_N(0, {0, 0.2, 0.1});
+  ASSERT_TRUE(solver.solve().converged());
+  const Vector3d second_mm = solver.tip().position_B_mm;
+  ASSERT_GT((second_mm - first_mm).norm(), 1);
+  EXPECT_TRUE(solver.go_back());
+  EXPECT_EQ(solver.tip().position_B_mm, first_mm);
+  EXPECT_EQ(solver.by_load(0, 100), first_slope);
+  EXPECT_TRUE(solver.go_back());
+  EXPECT_EQ(solver.tip().position_B_mm, second_mm);
+  EXPECT_TRUE(solver.go_back());
+  EXPECT_TRUE(solver.solve().converged());  // the values set stay: from the first solution to the second's loads
+  EXPECT_LT((solver.tip().position_B_mm - second_mm).norm(), 1e-3);
+}
+
 // Against the exact reference, along the whole rod.
 TEST(Solver, PosesAndWrenchesAreExact) {
   Joystick joystick(3);
@@ -220,6 +242,10 @@ TEST(Solver, RefusesWrongValues) {
               solver.set_rest_curvature_per_mm(0, {0, 0, nan});
             }),
             "scene: rod.sections[0].rest_curvature_per_mm = [0, 0, nan]: must be finite");
+  EXPECT_EQ(message([&] {
+              solver.set_stiffness_Nmm2(1, {1, -2, 1});
+            }),
+            "scene: rod.sections[1].stiffness.bending_Nmm2 = [-2, 1]: must be > 0");
   const Vector3d before_mm = solver.tip().position_B_mm;
   EXPECT_TRUE(solver.solve(Solver::Start::unloaded).converged());
   EXPECT_EQ(solver.tip().position_B_mm, before_mm);
