@@ -5,6 +5,7 @@
 #include "scene/load_visitor.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fam {
 namespace {
@@ -14,10 +15,33 @@ using scene::Unknown;
 using UnknownKind = scene::Unknown::Kind;
 
 // Chosen, not measured.
-constexpr double model_tolerance_over_L = 1e-6;
+constexpr double model_share = 0.03;  // of the smallest standard deviation, that the model may be off by
+constexpr double least_tolerance_over_L = 1e-8, most_tolerance_over_L = 1e-6;
 constexpr double least_place_over_L = 1e-9;                           // at the clamp itself no load can stand
 constexpr double least_factor = 0.01;                                 // of a stiffness
-constexpr int first_reserved_arcs = 64, most_reserved_arcs = 65'536;  // memory for 1024 costs as much as a solve
+constexpr int first_reserved_arcs = 32, most_reserved_arcs = 65'536;  // memory for 1024 costs as much as a solve
+
+// How far the rod is off, as a whole, where it is off by this measurement's deviation.
+double deviation_mm(const scene::Measurement& measurement, const scene::Scene& scene) {
+  const double L_mm = scene::length_mm(scene);
+  const auto& value = measurement.value;
+  if (const auto* position = std::get_if<scene::PositionMeasurement>(&value)) return position->sd_mm;
+  if (const auto* rotation = std::get_if<scene::RotationMeasurement>(&value)) return rotation->sd_rad * L_mm;
+  if (const auto* curvature = std::get_if<scene::CurvatureMeasurement>(&value))
+    return curvature->sd_per_mm * L_mm * L_mm;
+  const auto& wrench = std::get<scene::BaseWrenchMeasurement>(value);
+  const double EI_Nmm2 = scene::stiffness_of(scene.sections.front()).bending_Nmm2.maxCoeff();
+  return std::min(wrench.sd_N * L_mm, wrench.sd_Nmm) * L_mm * L_mm / EI_Nmm2;
+}
+
+double model_tolerance_mm(const scene::EstimationProblem& problem) {
+  const double L_mm = scene::length_mm(problem.scenes.front().scene);
+  double least_mm = HUGE_VAL;
+  for (const scene::MeasuredScene& measured : problem.scenes)
+    for (const scene::Measurement& measurement : measured.measurements)
+      least_mm = std::min(least_mm, deviation_mm(measurement, measured.scene));
+  return std::clamp(model_share * least_mm, least_tolerance_over_L * L_mm, most_tolerance_over_L * L_mm);
+}
 
 }  // namespace
 
@@ -63,8 +87,7 @@ double within_bounds(const Unknown& unknown, const scene::EstimationProblem& pro
 
 EstimatedRods::EstimatedRods(const scene::EstimationProblem& problem, const Options& options)
     : now_(problem), values_(problem.unknowns.size()), options_(options), solvers_(problem.scenes.size()) {
-  if (options_.arcs == 0 && !(options_.tolerance_mm > 0))
-    options_.tolerance_mm = model_tolerance_over_L * scene::length_mm(problem.scenes.front().scene);
+  if (options_.arcs == 0 && !(options_.tolerance_mm > 0)) options_.tolerance_mm = model_tolerance_mm(problem);
   options_.reserved_arcs = std::min(options_.reserved_arcs, first_reserved_arcs);
   for (const scene::MeasuredScene& measured : problem.scenes) sections_.push_back(measured.scene.sections);
   for (const Unknown& unknown : problem.unknowns) has_sections_ |= is_of_section(unknown);
@@ -83,9 +106,19 @@ void EstimatedRods::put_into(scene::EstimationProblem& problem) const {
   for (std::size_t k = 0; k < values_.size(); ++k) scene::put(problem, now_.unknowns[k], values_[k]);
 }
 
-void EstimatedRods::set_loads(Solver& solver, std::size_t scene) const {
+void EstimatedRods::set_values(Solver& solver, std::size_t scene) const {
   for (const Unknown& u : now_.unknowns) {
-    if (is_of_section(u) || u.scene != scene) continue;
+    if (is_of_section(u)) {
+      const scene::Section& section = now_.scenes[scene].scene.sections[u.index];
+      const scene::Stiffness stiffness = scene::stiffness_of(section);
+      if (u.kind == UnknownKind::rest_curvature)
+        solver.set_rest_curvature_per_mm(u.index, section.rest_curvature_per_mm);
+      else
+        solver.set_stiffness_Nmm2(u.index,
+                                  {stiffness.torsion_Nmm2, stiffness.bending_Nmm2[0], stiffness.bending_Nmm2[1]});
+      continue;
+    }
+    if (u.scene != scene) continue;
     const bool place = u.kind == UnknownKind::place;
     scene::visit_load(
         now_.scenes[scene].scene.loads[u.index],
@@ -112,12 +145,10 @@ bool EstimatedRods::make(std::size_t scene) {
   return true;
 }
 
-bool EstimatedRods::solve(std::size_t scene) {
-  const bool kept = solvers_[scene] && !has_sections_;
-  if (kept) set_loads(*solvers_[scene], scene);
+bool EstimatedRods::solve(std::size_t scene, Solver::Start start) {
+  if (solvers_[scene]) set_values(*solvers_[scene], scene);
   else if (!make(scene)) return false;
-  Solver::Outcome outcome = solvers_[scene]->solve();
-  if (!outcome.converged() && kept) outcome = solvers_[scene]->solve(Solver::Start::unloaded);
+  Solver::Outcome outcome = solvers_[scene]->solve(start);
   while (outcome.status == Status::tolerance_not_met && options_.reserved_arcs < most_reserved_arcs) {
     options_.reserved_arcs *= 2;
     if (!make(scene)) return false;

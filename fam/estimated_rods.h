@@ -27,8 +27,10 @@ class EstimatedRods {
   // What was put last.
   void put_into(scene::EstimationProblem& problem) const;
 
-  // From the solution before, or, where that fails, from no load. A solver that reserves too few arcs is made anew.
-  bool solve(std::size_t scene);
+  // A solver that reserves too few arcs is made anew.
+  bool solve(std::size_t scene, Solver::Start start);
+  // To the solution before the last one.
+  bool go_back(std::size_t scene) { return solvers_[scene]->go_back(); }
   const Solver& solver(std::size_t scene) const { return *solvers_[scene]; }
   // Why solve() failed.
   scene::Status status() const { return status_; }
@@ -36,7 +38,7 @@ class EstimatedRods {
 
  private:
   bool make(std::size_t scene);
-  void set_loads(Solver& solver, std::size_t scene) const;
+  void set_values(Solver& solver, std::size_t scene) const;
 
   scene::EstimationProblem now_;
   std::vector<std::vector<scene::Section>> sections_;  // before any factor

@@ -1,7 +1,7 @@
 #include "fam/estimator.h"
 
 #include "fam/eigenvectors.h"
-#include "fam/estimated_rods.h"
+#include "fam/estimation_rows.h"
 #include "fam/measured_rows.h"
 #include "fam/posterior.h"
 
@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 namespace fam {
 namespace {
@@ -21,6 +21,7 @@ using Eigen::VectorXd;
 using scene::Measurement;
 using scene::Status;
 using scene::Unknown;
+using Start = Solver::Start;
 using UnknownKind = scene::Unknown::Kind;
 
 // All chosen, not measured.
@@ -28,6 +29,8 @@ constexpr int most_iterations = 200;
 constexpr double first_damping = 1e-3, warm_damping = 1e-9, least_damping = 1e-12, most_damping = 1e12;
 constexpr double least_scaling = 1e-6;  // of the damping matrix, of its largest
 constexpr double converged_decrease = 1e-8;
+constexpr double flat_decrease = 1e-6;       // of 1 + chi-squared: the model's own error may hide what is less
+constexpr double small_step = 0.01;          // in standard deviations
 constexpr double least_information = 1e-12;  // of the largest, below which a step would be round-off
 constexpr double longest_step = 2;           // in the unknowns' own units
 constexpr double longest_place_step = 0.2;   // of the length
@@ -44,87 +47,54 @@ double radical_inverse(int number, int base) {
 }  // namespace
 
 struct Estimator::Impl {
-  scene::EstimationProblem given;
-  Index measured_rows = 0;
-  std::vector<double> values;  // that are put in, in the scene's units
-  VectorXd unit, prior_sd;     // prior_sd in units of their own, NaN where there is none
+  EstimationRows rows;
   Estimate result;
-  EstimatedRods rods;
 
-  // Of Gauss-Newton: x in units of their own; rows at x, the measurements' and then the priors', and at the trial.
+  // Of Gauss-Newton: x, and rows there and at the trial.
   VectorXd x, start, trial, moved, gradient, scaling, along, residual, trial_residual;
-  MatrixXd slopes, trial_slopes, information, damped, vectors;
+  MatrixXd slopes, information, damped, vectors;
   Eigen::LDLT<MatrixXd> factors;
   Posterior posterior;
+  bool solved_at_x = false;  // the rods, and the slopes are those at x or near it
 
   Impl(scene::EstimationProblem problem, const Options& asked)
-      : given(std::move(problem)), rods(given, asked), posterior(static_cast<Index>(given.unknowns.size())) {
-    result.problem = given;
-    take_memory(static_cast<Index>(given.unknowns.size()));
-    for (Index k = 0; k < x.size(); ++k) {
-      unit[k] = unit_of(unknown(k), given);
-      x[k] = unknown(k).prior_mean / unit[k];
-      prior_sd[k] = unknown(k).prior_sd ? *unknown(k).prior_sd / unit[k] : std::numeric_limits<double>::quiet_NaN();
-    }
-    bound(x);
+      : rows(std::move(problem), asked), posterior(static_cast<Index>(rows.given().unknowns.size())) {
+    result.problem = rows.given();
+    take_memory(rows.unit().size());
+    for (Index k = 0; k < x.size(); ++k) x[k] = rows.prior_mean(k);
+    rows.bound(x);
   }
 
   void take_memory(Index count) {
-    Index rows = 0;
-    for (const scene::MeasuredScene& scene : given.scenes)
-      for (const Measurement& measurement : scene.measurements) rows += rows_of(measurement);
-    measured_rows = rows;
-    for (const Unknown& u : given.unknowns) rows += u.prior_sd ? 1 : 0;
-    for (VectorXd* v :
-         {&unit, &prior_sd, &x, &start, &trial, &moved, &gradient, &scaling, &along, &result.mean, &result.sd})
+    for (VectorXd* v : {&x, &start, &trial, &moved, &gradient, &scaling, &along, &result.mean, &result.sd})
       v->resize(count);
-    for (VectorXd* v : {&residual, &trial_residual}) v->resize(rows);
-    for (MatrixXd* m : {&slopes, &trial_slopes}) m->resize(rows, count);
+    for (VectorXd* v : {&residual, &trial_residual}) v->resize(rows.count());
+    slopes.resize(rows.count(), count);
     for (MatrixXd* m : {&information, &damped, &vectors, &result.covariance}) m->resize(count, count);
     factors = Eigen::LDLT<MatrixXd>(count);
     result.observable.resize(static_cast<std::size_t>(count));
-    values.resize(static_cast<std::size_t>(count));
   }
 
-  const Unknown& unknown(Index k) const { return given.unknowns[static_cast<std::size_t>(k)]; }
-
-  void bound(VectorXd& at) const {
-    for (Index k = 0; k < at.size(); ++k) at[k] = within_bounds(unknown(k), given, at[k] * unit[k]) / unit[k];
-  }
+  const Unknown& unknown(Index k) const { return rows.unknown(k); }
 
   bool fail(Status status, const std::string& message) {
     result.status = status;
     result.message = message;
+    solved_at_x = false;
     return false;
   }
 
-  void put_in(const VectorXd& at) {
-    for (Index k = 0; k < at.size(); ++k) values[static_cast<std::size_t>(k)] = at[k] * unit[k];
-    rods.put(values);
+  // Residual and slopes at x; false where the rods cannot be solved there. Where they stand there already only the
+  // measurements are new.
+  bool evaluate() {
+    if (!solved_at_x && !rows.solve(x, Start::unloaded)) return fail(rows.status(), rows.message());
+    if (!rows.put_residual(x, residual)) return fail(Status::not_finite, "a position or wrench is not finite");
+    return solved_at_x || renew_slopes();
   }
 
-  // Residual and slopes at a point; false where the rod cannot be solved there.
-  bool evaluate(const VectorXd& at, VectorXd& r, MatrixXd& J) {
-    put_in(at);
-    r.setZero();
-    J.setZero();
-    Index row = 0;
-    for (std::size_t i = 0; i < given.scenes.size(); ++i) {
-      if (!rods.solve(i)) return fail(rods.status(), rods.message());
-      for (const Measurement& measurement : given.scenes[i].measurements) {
-        const int count = rows_of(measurement);
-        put_residual(rods.solver(i), measurement, r.segment(row, count));
-        put_slopes(rods.solver(i), given.scenes[i], i, given.unknowns, measurement, J.middleRows(row, count));
-        row += count;
-      }
-    }
-    for (Index k = 0; k < at.size(); ++k) J.col(k) *= unit[k];
-    for (Index k = 0; k < at.size(); ++k) {
-      if (std::isnan(prior_sd[k])) continue;
-      r[row] = (at[k] - unknown(k).prior_mean / unit[k]) / prior_sd[k];
-      J(row++, k) = 1 / prior_sd[k];
-    }
-    return (r.allFinite() && J.allFinite()) || fail(Status::not_finite, "a derivative is not finite");
+  bool renew_slopes() {
+    solved_at_x = rows.put_slopes(slopes);
+    return solved_at_x || fail(Status::not_finite, "a derivative is not finite");
   }
 
   // Shortens a step to what the unknowns may change by at once.
@@ -159,58 +129,77 @@ struct Estimator::Impl {
     moved = -moved;
     limit(moved);
     trial = x + moved;
-    bound(trial);
+    rows.bound(trial);
     moved = trial - x;
     along.noalias() = information * moved;
     return -(2 * gradient.dot(moved) + moved.dot(along));
   }
 
+  // To a trial that brings chi-squared down; what that step promised, or nothing where there is none. Each starts from
+  // x: what was turned down may lie on another branch.
+  std::optional<double> descend(double& damping, double chi_squared, double possible) {
+    for (; damping <= most_damping; damping *= 10) {
+      const double promised = step(damping);
+      if (trial == x) break;
+      const bool solved = rows.solve(trial, solved_at_x ? Start::last_solution : Start::unloaded);
+      if (solved && rows.put_residual(trial, trial_residual) && trial_residual.squaredNorm() < chi_squared)
+        return promised;
+      solved_at_x = rows.go_back() && solved_at_x;
+      if (possible <= flat_decrease * (1 + chi_squared)) break;
+    }
+    return std::nullopt;
+  }
+
   bool minimise() {
-    if (!evaluate(x, residual, slopes)) return false;
-    double damping = result.converged() ? warm_damping : first_damping, chi_squared = residual.squaredNorm();
+    const bool warm = solved_at_x;
+    if (!evaluate()) return false;
+    double damping = warm ? warm_damping : first_damping, chi_squared = residual.squaredNorm(), way = 0;
     for (result.iterations = 0; result.iterations < most_iterations; ++result.iterations) {
       information.noalias() = slopes.transpose() * slopes;
       gradient.noalias() = slopes.transpose() * residual;
       const double largest = information.diagonal().maxCoeff();
-      if (!(largest > 0) || possible_decrease() <= converged_decrease * (1 + chi_squared)) return true;
+      const double possible = largest > 0 ? possible_decrease() : 0;
+      if (!(possible > converged_decrease * (1 + chi_squared))) return true;
       scaling = information.diagonal().cwiseMax(least_scaling * largest);
-      double promised = 0;
-      bool better = false;
-      while (!better && damping <= most_damping) {
-        promised = step(damping);
-        if (trial == x) break;
-        better = evaluate(trial, trial_residual, trial_slopes) && trial_residual.squaredNorm() < chi_squared;
-        if (!better) damping *= 10;
+      const std::optional<double> promised = descend(damping, chi_squared, possible);
+      if (!promised && solved_at_x && way > 0 && renew_slopes()) {
+        way = 0;
+        continue;
       }
-      if (!better) return evaluate(x, residual, slopes) && is_flat(chi_squared);
+      if (!promised) return is_flat(chi_squared);
+      way += std::sqrt(moved.dot(along));
       x.swap(trial);
       residual.swap(trial_residual);
-      slopes.swap(trial_slopes);
+      solved_at_x = true;
       const double decrease = chi_squared - residual.squaredNorm();
-      damping = std::max(least_damping, damping * (decrease > good_share * promised ? 1e-3 : 0.1));
+      const bool as_promised = decrease > good_share * *promised;
+      if (way > small_step || !as_promised) {
+        if (!renew_slopes()) return false;
+        way = 0;
+      }
+      damping = std::max(least_damping, damping * (as_promised ? 1e-3 : 0.1));
       chi_squared -= decrease;
     }
     return fail(Status::not_converged, "200 iterations");
   }
 
-  // No step brought chi-squared down (the solver's own digits are reached, or a bound holds the unknowns): at a minimum
-  // where what is left lies in unknowns at their bounds, or is the round-off of a chi-squared with sqrt(eps) digits of
-  // its slopes.
+  // No step brought chi-squared down (the model's own error is reached, or a bound holds the unknowns): at a minimum
+  // where next to nothing is left in unknowns that are not at their bounds.
   bool is_flat(double chi_squared) {
     for (Index k = 0; k < x.size(); ++k) {
       moved = x;
       moved[k] -= std::copysign(1e-9, gradient[k]);
-      bound(moved);
+      rows.bound(moved);
       if (moved[k] == x[k]) gradient[k] = 0;
     }
-    return possible_decrease() <= 1e-6 * (1 + chi_squared) ||
+    return possible_decrease() <= flat_decrease * (1 + chi_squared) ||
            fail(Status::not_converged, "no step brings chi-squared down");
   }
 
   // Covariance, what is observed, and whether the model fits.
   void judge() {
-    posterior.set(slopes.topRows(measured_rows), prior_sd);
-    tell(posterior, x, unit, result);
+    posterior.set(slopes.topRows(rows.measured_count()), rows.prior_sd());
+    tell(posterior, x, rows.unit(), result);
     result.chi_squared = residual.squaredNorm();
     result.degrees_of_freedom = static_cast<int>(residual.size() - x.size()) + posterior.free_directions();
     result.fits = result.chi_squared <= chi_squared_999(result.degrees_of_freedom);
@@ -226,7 +215,7 @@ struct Estimator::Impl {
   }
 
   bool has_unknown_place() const {
-    return std::any_of(given.unknowns.begin(), given.unknowns.end(),
+    return std::any_of(rows.given().unknowns.begin(), rows.given().unknowns.end(),
                        [](const Unknown& u) { return u.kind == UnknownKind::place; });
   }
 
@@ -236,10 +225,11 @@ struct Estimator::Impl {
     std::size_t place = 0;
     for (Index k = 0; k < x.size(); ++k) {
       const Unknown& u = unknown(k);
-      x[k] = u.prior_mean / unit[k];
+      x[k] = rows.prior_mean(k);
       if (u.kind == UnknownKind::place) x[k] = radical_inverse(number, bases[place++ % bases.size()]);
     }
-    bound(x);
+    rows.bound(x);
+    solved_at_x = false;
   }
 
   // Where a load stands has several minima: where the first one does not fit, others are looked for.
@@ -256,6 +246,7 @@ struct Estimator::Impl {
     }
     if (best == HUGE_VAL) return false;
     x = best_x;
+    solved_at_x = false;
     return search();
   }
 
@@ -264,8 +255,7 @@ struct Estimator::Impl {
     bool found = search();
     if ((!found || !result.fits) && has_unknown_place()) found = search_elsewhere();
     if (!found) x = start;
-    put_in(x);
-    rods.put_into(result.problem);
+    else rows.put_into(result.problem, x);
     if (found)
       result.message =
           result.fits ? "" : "the model does not fit the measurements: chi-squared is larger than one in 1000 would be";
@@ -280,11 +270,13 @@ Estimator& Estimator::operator=(Estimator&&) noexcept = default;
 Estimator::~Estimator() = default;
 
 const scene::EstimationProblem& Estimator::problem() const {
-  return impl_->given;
+  return impl_->rows.given();
 }
 
 void Estimator::set_measurement(std::size_t scene, std::size_t measurement, const scene::Measurement& value) {
-  impl_->given.scenes.at(scene).measurements.at(measurement) = value;
+  Measurement& kept = impl_->rows.measurement(scene, measurement);
+  if (!has_slopes_of(value, kept)) impl_->solved_at_x = false;
+  kept = value;
 }
 
 Estimate Estimator::estimate() {

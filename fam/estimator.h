@@ -45,7 +45,8 @@ struct Estimate {
 // places come by set_measurement. Throws scene::SceneError on wrong input.
 class Estimator {
  public:
-  // Options as of solve(); without arcs and tolerance the model is solved within 1e-6 L.
+  // Options as of solve(); without arcs and tolerance the model is solved within 0.03 of the smallest standard
+  // deviation (rotations times L, curvatures times L^2; 1e-8 to 1e-6 L).
   explicit Estimator(scene::EstimationProblem problem, const Options& options = {});
   Estimator(Estimator&&) noexcept;
   Estimator& operator=(Estimator&&) noexcept;
@@ -54,8 +55,8 @@ class Estimator {
   const scene::EstimationProblem& problem() const;
   void set_measurement(std::size_t scene, std::size_t measurement, const scene::Measurement& value);
   Estimate estimate();
-  // The same where it is kept: for streams; takes no memory once a rod with these loads has been solved (unknown
-  // stiffness and rest curvature, directions that cannot be observed and failures do).
+  // The same where it is kept: for streams; takes no memory once a rod with these loads has been solved (directions
+  // that cannot be observed and failures do).
   const Estimate& track();
 
  private:

@@ -145,6 +145,19 @@ int rows_of(const Measurement& measurement) {
   return std::holds_alternative<scene::CurvatureMeasurement>(measurement.value) ? 2 : 3;
 }
 
+bool has_slopes_of(const Measurement& a, const Measurement& b) {
+  if (a.s_mm != b.s_mm || a.value.index() != b.value.index()) return false;
+  if (const auto* position = std::get_if<scene::PositionMeasurement>(&a.value))
+    return position->sd_mm == std::get<scene::PositionMeasurement>(b.value).sd_mm;
+  if (const auto* rotation = std::get_if<scene::RotationMeasurement>(&a.value))
+    return rotation->sd_rad == std::get<scene::RotationMeasurement>(b.value).sd_rad;
+  if (const auto* curvature = std::get_if<scene::CurvatureMeasurement>(&a.value))
+    return curvature->sd_per_mm == std::get<scene::CurvatureMeasurement>(b.value).sd_per_mm;
+  const auto &wrench = std::get<scene::BaseWrenchMeasurement>(a.value),
+             &other = std::get<scene::BaseWrenchMeasurement>(b.value);
+  return wrench.sd_N == other.sd_N && wrench.sd_Nmm == other.sd_Nmm;
+}
+
 void put_residual(const Solver& solver, const Measurement& measurement, Eigen::Ref<VectorXd> rows) {
   const double s_mm = measurement.s_mm;
   if (const auto* position = std::get_if<scene::PositionMeasurement>(&measurement.value)) {

@@ -17,6 +17,9 @@ inline bool is_of_section(const scene::Unknown& unknown) {
 
 int rows_of(const scene::Measurement& measurement);
 
+// Whether put_slopes gives the same for both, but for how far a measured rotation is from the model's.
+bool has_slopes_of(const scene::Measurement& a, const scene::Measurement& b);
+
 // What the model gives less what is measured, over sd.
 void put_residual(const Solver& solver, const scene::Measurement& measurement, Eigen::Ref<Eigen::VectorXd> rows);
 

@@ -364,4 +364,35 @@ TEST(Estimator, AStreamTakesNoMemory) {
   EXPECT_LT((estimator.track().mean - 0.7 * true_force_N).norm(), 1e-3);
 }
 
+// What the estimator keeps from one estimate to the next is of the deviations that it was told.
+TEST(Estimator, NewDeviationsCount) {
+  const scene::Scene start = rod_under({force(L_mm, Vector3d::Zero())});
+  const scene::Equilibrium exact = exact_reference::solve(rod_under({force(L_mm, true_force_N)}), {});
+  Estimator estimator({{{start, {position(exact.stations.back(), 0.01)}}}, components(0, {0, 1, 2}, start)});
+  const Eigen::VectorXd sd = estimator.estimate().sd;
+  estimator.set_measurement(0, 0, position(exact.stations.back(), 0.02));
+  const Estimate wider = estimator.estimate();
+  ASSERT_TRUE(wider.converged());
+  EXPECT_EQ(wider.iterations, 0);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(wider.sd[k] / sd[k], 2, 1e-6);  // linear in the deviation
+}
+
+// Near its buckling load a straight rod's trial steps end on other branches, that the next ones must not start from.
+TEST(Estimator, TrialsThatLeaveTheBranchDoNoHarm) {
+  const double buckling_N = EI_Nmm2 * std::pow(M_PI / (2 * L_mm), 2);
+  const Vector3d pushed_N(-0.9 * buckling_N, 0.03, 0.04);
+  const scene::Equilibrium exact = exact_reference::solve(rod_under({force(L_mm, pushed_N)}), {});
+  ASSERT_TRUE(exact.converged());
+  const scene::Scene start = rod_under({force(L_mm, Vector3d::Zero())});
+  std::mt19937_64 seeded(6);
+  std::normal_distribution<double> normal;
+  int converged = 0;
+  for (int i = 0; i < 20; ++i) {
+    scene::Station off = exact.stations.back();
+    for (double& x : off.X_BS.position_B_mm) x += 0.01 * normal(seeded);
+    converged += Estimator({{{start, {position(off, 0.01)}}}, components(0, {0, 1, 2}, start)}).estimate().converged();
+  }
+  EXPECT_EQ(converged, 20);
+}
+
 }  // namespace
