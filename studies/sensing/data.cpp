@@ -1,7 +1,7 @@
 #include "studies/sensing/data.h"
 
 #include "fam/estimator.h"
-#include "studies/sensing/problems.h"
+#include "studies/scenes/sensing_problem.h"
 
 #include <fmt/format.h>
 
@@ -72,7 +72,7 @@ true unknowns (N, mm), the exact measurements, and the same with noise. Columns 
 - [two_contacts.csv](two_contacts.csv): two forces across the rod and their places; curvatures u_y, u_z in 1/mm at twenty places,
   noise 1e-4 /mm.
 
-Seeds 1 to 100 make the truths, those and 10^6 the noise: `studies/sensing/problems.cpp`.
+Seeds 1 to 100 make the truths, those and 10^6 the noise: `studies/scenes/sensing_problem.cpp`.
 )";
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "studies/report/provenance.h"
 #include "studies/report/table.h"
 #include "studies/sensing/data.h"
+#include "studies/sensing/models.h"
 #include "studies/sensing/trials.h"
 #include "studies/study.h"
 
@@ -136,7 +137,7 @@ std::string sensors_picture(const SensingRows& rows) {
 }
 
 std::map<std::string, std::string> files_of(const SensingRows& noises, const SensingRows& sensors,
-                                            const SensingRows& models, const std::filesystem::path& page_md) {
+                                            const SensingRows& models, const StudyOptions& options) {
   const auto row_of = [&](Sensing kind) -> const SensingResult& {
     const auto is_kind = [&](const SensingRow& row) { return row.settings.kind == kind; };
     return std::find_if(noises.begin(), noises.end(), is_kind)->result;
@@ -163,6 +164,10 @@ std::map<std::string, std::string> files_of(const SensingRows& noises, const Sen
   page.set("sensor_table", table_of(sensors, "positions").markdown());
   page.set("observability", observability_table(2).markdown());
   page.set("model_table", table_of(models, "wrong with the model").markdown());
+  const Table starts = starts_table(options.cases), laws = laws_table(), times = times_table(options.cases);
+  page.set("starts_table", starts.markdown());
+  page.set("laws_table", laws.markdown());
+  page.set_time("times_table", times.markdown());
   const std::string answer = fmt::format(
       "a tip force from positions to 0.01 mm, {} synthetic trials: NEES {} from the tip's pose, {} from four "
       "positions, where 3 ± {} is expected",
@@ -173,7 +178,10 @@ std::map<std::string, std::string> files_of(const SensingRows& noises, const Sen
           {"observability.csv", observability_table(4).csv({"Without noise; see the page."})},
           {"noise.svg", noise_picture(noises)},
           {"sensors.svg", sensors_picture(sensors)},
-          {"README.md", page.fill(page_md)},
+          {"starts.csv", starts.csv({"Twelve starts for each of 20 truths."})},
+          {"laws.csv", laws.csv({"A follower's tip force from four positions without noise."})},
+          {"timing.csv", times.csv({"One run, 200 estimates a problem."})},
+          {"README.md", page.fill(options.pages / "sensing" / "page.md")},
           {answers_file, answers_json({{"how_sure", answer}})}};
 }
 
@@ -182,7 +190,7 @@ std::map<std::string, std::string> files_of(const SensingRows& noises, const Sen
 void sensing(const StudyOptions& options) {
   SensingRows noises = over_noise(), sensors = over_sensors(), models = over_models();
   for (SensingRows* rows : {&noises, &sensors, &models}) run(*rows, options);
-  std::map<std::string, std::string> files = files_of(noises, sensors, models, options.pages / "sensing" / "page.md");
+  std::map<std::string, std::string> files = files_of(noises, sensors, models, options);
   files.merge(sensing_data(options.cases));
   write_results(options.output / "sensing", "fam-studies sensing", files);
 }

@@ -1,7 +1,7 @@
 // Many noisy estimates of problems with known answers, and whether they are as sure as they say.
 #pragma once
 
-#include "studies/sensing/problems.h"
+#include "studies/scenes/sensing_problem.h"
 
 #include "fam/options.h"
 #include "studies/report/progress.h"

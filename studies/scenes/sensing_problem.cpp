@@ -1,4 +1,4 @@
-#include "studies/sensing/problems.h"
+#include "studies/scenes/sensing_problem.h"
 
 #include "exact_reference/solve.h"
 #include "scene/load_visitor.h"
