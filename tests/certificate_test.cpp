@@ -2,6 +2,7 @@
 #include "exact_reference/certificate.h"
 #include "exact_reference/solve.h"
 #include "fam/solve.h"
+#include "studies/campaign/judged.h"
 #include "studies/compare/error_measures.h"
 #include "studies/methods/rk4_method.h"
 #include "studies/scenes/random_scene.h"
@@ -94,6 +95,27 @@ TEST(Certificate, NeedsAStationWhereLoadsStand) {
   const Certificate certificate = certify(scene, answer, 1e-8);
   EXPECT_FALSE(certificate.found);
   EXPECT_NE(certificate.message.find("no station"), std::string::npos) << certificate.message;
+}
+
+// A coil of thousands of turns, along which the exact reference adds up errors of 1e-9 L to some 1e-2 L: FAM's answer
+// is the nearer one, and the finer reference says so.
+TEST(Judged, AsksTheReferenceAgainBeforeItBlamesTheAnswer) {
+  const scene::Scene scene = studies::random_scene(studies::campaign_seed(1, 313'088));
+  const double length_mm = scene::length_mm(scene);
+  fam::Options options;
+  options.tolerance_mm = 1e-4 * length_mm;
+  const scene::Equilibrium answer = fam::solve(scene, options);
+  const auto first = exact_reference::solve(scene, {exact_reference::RodModel::reissner, 1e-9});
+  ASSERT_GT(studies::largest_distance_mm(answer, first) / length_mm, 5e-3);
+  const studies::Judged by = studies::judged(scene, answer, 3e-4, true);
+  EXPECT_TRUE(by.by_exact());
+  EXPECT_LT(by.position, 3e-4);
+  // The twin: an answer that is off is still found off.
+  scene::Equilibrium off = answer;
+  for (scene::Station& station : off.stations) station.X_BS.position_B_mm[1] += 0.05 * length_mm;
+  const studies::Judged twin = studies::judged(scene, off, 3e-4, true);
+  EXPECT_TRUE(twin.by_exact());
+  EXPECT_GT(twin.position, 0.04);
 }
 
 }  // namespace

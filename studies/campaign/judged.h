@@ -13,7 +13,8 @@ struct Judged {
   exact_reference::Certificate certificate;
   std::optional<scene::Equilibrium> exact;  // where it was asked
   double position = 0, tip = 0;             // errors over L, by the exact reference where it was asked and converged
-  bool by_exact() const { return exact && exact->converged(); }
+  bool unresolved = false;                  // the reference is no nearer to itself at two tolerances
+  bool by_exact() const { return exact && exact->converged() && !unresolved; }
 };
 
 // The exact reference resolves 1e-9 L, a certificate's equilibrium this, unless tolerances are given.
@@ -21,7 +22,8 @@ struct JudgeTolerances {
   double certificate = 1e-7, exact = 1e-9;
 };
 
-// ask_exact: in any case; else where the certificate does not hold `allowed` (over L).
+// ask_exact: in any case; else where the certificate does not hold `allowed` (over L). Where the answer is further off
+// than that, the exact reference is asked again, a hundred times as fine.
 Judged judged(const scene::Scene& scene, const scene::Equilibrium& answer, double allowed, bool ask_exact,
               const JudgeTolerances& tolerances = {});
 
