@@ -4,12 +4,6 @@
 #include "studies/compare/error_measures.h"
 
 namespace studies {
-namespace {
-
-// Of the distance between two references, one a hundred times as fine, that the finer one may be off: chosen.
-constexpr double unresolved_share = 0.1;
-
-}  // namespace
 
 using scene::Equilibrium;
 
@@ -34,7 +28,7 @@ Judged judged(const scene::Scene& scene, const scene::Equilibrium& answer, doubl
   ask(tolerances.exact / 100);
   if (!result.by_exact()) return result;
   const double between = largest_distance_mm(first, *result.exact) / length_mm;
-  result.unresolved = result.position > allowed && result.position <= unresolved_share * between;
+  result.unresolved = result.position > allowed && result.position <= between;
   return result;
 }
 

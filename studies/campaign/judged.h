@@ -13,7 +13,8 @@ struct Judged {
   exact_reference::Certificate certificate;
   std::optional<scene::Equilibrium> exact;  // where it was asked
   double position = 0, tip = 0;             // errors over L, by the exact reference where it was asked and converged
-  bool unresolved = false;                  // the reference is no nearer to itself at two tolerances
+  // Further off than allowed, but no further than the reference at two tolerances from itself.
+  bool unresolved = false;
   bool by_exact() const { return exact && exact->converged() && !unresolved; }
 };
 
