@@ -203,6 +203,8 @@ TEST(Campaign, RateBounds) {
   const double p = studies::rate_bound(1, 10);
   EXPECT_NEAR(std::pow(1 - p, 10) + 10 * p * std::pow(1 - p, 9), 0.05, 1e-9);
   EXPECT_EQ(studies::rate_bound(7, 7), 1);
+  // Rare events, Poisson's: P(X <= 2 | 6.2958) = 0.05.
+  EXPECT_NEAR(studies::rate_bound(2, 343'530), 6.2958 / 343'530, 1e-9);
 }
 
 const std::string swept = R"({ "scene": { "rod": { "sections": [ { "length_mm": 100, "stiffness":

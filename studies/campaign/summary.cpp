@@ -73,8 +73,14 @@ void write_summary(const Tally& tally, std::uint64_t campaign, const std::filesy
 
 double rate_bound(std::uint64_t found, std::uint64_t asked) {
   if (found >= asked) return 1;
-  const double n = static_cast<double>(asked), k = static_cast<double>(found);
-  return gsl_cdf_beta_Pinv(0.95, k + 1, n - k);
+  // By bisection: GSL's inverse of the beta distribution fails beyond some 300 000 scenes.
+  double low = 0, high = 1;
+  for (int i = 0; i < 200 && low < high * (1 - 1e-12); ++i) {
+    const double middle = low > 0 ? std::sqrt(low * high) : high / 2;
+    const double fewer = gsl_cdf_binomial_P(static_cast<unsigned>(found), middle, static_cast<unsigned>(asked));
+    (fewer > 0.05 ? low : high) = middle;
+  }
+  return high;
 }
 
 }  // namespace studies
