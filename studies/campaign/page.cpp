@@ -73,16 +73,13 @@ Table audit_table(const Tally& audit) {
   return table;
 }
 
-Table worst_table(const Tally& random, std::size_t rows) {
-  Table table({"measure", "value", "kind of scene", "seed"});
-  for (const auto& [measure, list] : random.worst()) {
-    std::size_t k = 0;
-    if (measure == "wrench") continue;  // of a rod next to no loads round-off is all there is
-    for (const Tally::Worst& w : list) {
-      if (!std::isfinite(w.value)) continue;  // nobody to judge it
-      if (k++ == rows) break;
-      table.add({measure, scientific(w.value, 1), w.kind, std::to_string(campaign_seed(1, w.index))});
-    }
+// Answers that are not right, one a row.
+Table failures_table(const Tally& random) {
+  Table table({"what", "kind of scene", "numbers", "seed"});
+  for (const Tally::Failure& failure : random.failures()) {
+    const bool is_answer = failure.outcome.starts_with("wrong") || failure.outcome == "tolerance missed";
+    if (!is_answer) continue;
+    table.add({failure.outcome, failure.kind, failure.numbers, std::to_string(campaign_seed(1, failure.index))});
   }
   return table;
 }
@@ -140,7 +137,7 @@ std::map<std::string, std::string> campaign_files(const CampaignData& data, cons
   page.set("no_answer_share", share(no_answer, scenes));
   page.set("outcomes", outcomes_table(random).markdown());
   page.set("audit", audit_table(data.audit).markdown());
-  page.set("worst", worst_table(random, 2).markdown());
+  page.set("failures", failures_table(random).markdown());
   page.set_time("timing", data.timing);
   const std::string answer =
       fmt::format("of {} judged answers to {} random scenes {} are wrong without saying so (rate below {} at 95 %)",
