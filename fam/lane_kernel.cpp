@@ -1,6 +1,7 @@
 // The kernel of fam/lanes.h, compiled once for each vector unit: FAM_UNIT names its namespace, FAM_LANES and FAM_LEVEL
 // its pack. No double goes through a template here: what the linker kept of it would run on every processor.
 #include "fam/lane_section.h"
+#include "fam/load_length.h"
 #include "fam/rotation.h"
 #include "fam/shooting.h"
 
@@ -96,7 +97,7 @@ class Rods {
 
   // Arcs short enough for the law's series, and of boundary values one equilibrium (fam/shooting.h).
   Mask is_within_bounds() const {
-    P force(0), moment(0), load_length(0), turn(0), strain(0), longest(0);
+    P force(0), moment(0), convexity(0), force_beyond(0), by_moments(0), turn(0), strain(0), longest(0);
     for (std::size_t i = rods_.spans.size(); i-- > 0;) {
       const LaneSpan& span = rods_.spans[i];
       const P* n = numbers(i);
@@ -109,17 +110,21 @@ class Rods {
       const P h(span.arc_length_mm), arcs(span.arcs);
       for (int arc = 0; arc < (span.distributed ? span.arcs : 1); ++arc) {
         force += on_arc;
-        const P times(span.distributed ? 1 : span.arcs);
-        load_length += times * h * sqrt(force * P(1 / span.buckling_stiffness_Nmm2));
+        const double cell_mm = span.arc_length_mm * (span.distributed ? 1 : span.arcs);
+        const double before_mm = span.distributed ? span.arc_length_mm * (span.arcs - 1 - arc) : 0;
+        const double to_clamp = span.compliance_to_clamp_per_Nmm + before_mm / span.buckling_stiffness_Nmm2;
+        convexity += convexity_share(force, force_beyond, to_clamp, cell_mm, span.buckling_stiffness_Nmm2);
+        force_beyond += force * P(cell_mm);
       }
-      if (D == 3) load_length += arcs * h * moment * P(span.spin_rate_per_Nmm2);
+      if (D == 3) by_moments += arcs * h * moment * P(span.spin_rate_per_Nmm2);
       turn += arcs * h * moment * P(1 / span.least_stiffness_Nmm2) + P(span.rest_turn_rad);
       strain = larger(strain, force * P(span.linear_compliance_per_N));
       longest = larger(longest, h * h * force * P(1 / span.least_stiffness_Nmm2));
     }
     Mask within = longest <= P(rods_.longest_load_length * rods_.longest_load_length);
     if (rods_.march) return within;
-    within &= load_length * load_length <= P(unique_load_length_squared);
+    const P unique_length = sqrt(sqrt(P(6) * convexity)) + by_moments;
+    within &= unique_length * unique_length <= P(unique_length_squared);
     within &= turn <= P(unique_turn_rad);
     if (with_shear) within &= strain <= P(unique_strain);
     return within;

@@ -33,6 +33,7 @@ struct LaneSpan {
   double angular_compliance[3], linear_compliance[3];  // times h; 0: does not give way
   double numbers[lane_number::count];                  // with every value of the columns 0
   double least_stiffness_Nmm2, buckling_stiffness_Nmm2, spin_rate_per_Nmm2, linear_compliance_per_N;  // load_length.h
+  double compliance_to_clamp_per_Nmm;  // int ds / buckling stiffness
   double rest_turn_rad, twist_per_Nmm2;
   double tendon_arms_mm[2];  // least and largest, in the plane; 0 included
 };

@@ -121,8 +121,11 @@ void LaneProblem::set_spans(RodModel model, std::span<const int> arcs_per_span) 
   const std::span<const Span> spans = spans_of(scene_);
   Matrix3d rest_tip_BS = Matrix3d::Identity();
   lane_spans_.clear();
+  double compliance_per_Nmm = 0;
   for (std::size_t i = 0; i < spans.size(); ++i) {
     lane_spans_.push_back(lane_span<D>(spans[i], model, arcs_per_span[i]));
+    lane_spans_.back().compliance_to_clamp_per_Nmm = compliance_per_Nmm;
+    compliance_per_Nmm += spans[i].length_mm() / lane_spans_.back().buckling_stiffness_Nmm2;
     if (choice_.round) lane_spans_.back().twist_per_Nmm2 = twist_per_Nmm2(given_[i]);
     rest_tip_BS *= rotation_matrix(Vector3d(spans[i].length_mm() * spans[i].rest_curvature_per_mm));
   }

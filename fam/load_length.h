@@ -4,6 +4,13 @@
 // the sum of the sizes of all beyond. A change at its tip side grows like its exponential towards the clamp. In space a
 // moment M about the axis of middle stiffness adds int M sqrt((c2 - c1)(c3 - c2)) ds, with the compliances 1/GJ,
 // 1/EI_y, 1/EI_z in order: the rate of Euler's unstable spin, at which the direction of the moment goes astray.
+//
+// The unique length says how far the energy is convex. With c(s) the compliance int_0^s ds/EI between the clamp and s
+// and F(s) the force beyond, a turn theta costs int F theta^2 at most and gives int EI theta'^2: the form is positive
+// while the largest eigenvalue of the kernel sqrt(F(s)) c(min(s, t)) sqrt(F(t)) is below 1, for which its trace of
+// second order below 1 suffices,
+//   2 int F(s) c(s)^2 int_s^L F dt ds   (F^2 L^4 / (6 EI^2) of a uniform rod under a tip force: L^2 F/EI < 2.449).
+// The unique length is the fourth root of six times that, L sqrt(F/EI) of such a rod, and the moments' part is added.
 #pragma once
 
 #include "fam/arc.h"
@@ -63,6 +70,17 @@ void walk_from_tip(std::span<const scene::Span> spans, const Cells& cells_per_sp
     }
   }
 }
+
+// What a cell adds to the unique length's integral: F(s) on it, int F dt beyond it, c at its end towards the clamp.
+template <class T>
+T convexity_share(const T& force_N, const T& force_beyond_Nmm, double compliance_to_clamp_per_Nmm, double length_mm,
+                  double stiffness_Nmm2) {
+  const double a = compliance_to_clamp_per_Nmm, b = 1 / stiffness_Nmm2, h = length_mm;
+  const double beyond = h * (a * a + h * (a * b + h * b * b / 3));
+  const double on_it = h * h * (a * a / 2 + h * (a * b / 3 + h * b * b / 12));
+  return T(2) * force_N * (force_beyond_Nmm * T(beyond) + force_N * T(on_it));
+}
+
 struct OneEach {
   int operator[](std::size_t) const { return 1; }
 };

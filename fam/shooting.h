@@ -27,18 +27,19 @@ constexpr int max_newton_steps = 20;
 constexpr double newton_curvature = 30;
 constexpr double tightest_newton_tolerance = 1e-13;  // some hundred round-offs of a rotation
 
-// A rod under fixed forces has one equilibrium while its energy is convex: up to a load length of pi/2, its
-// square 2.47, with the least of EI and GJ (EI in planar scenes). Turns and strains shift that; their limits are
-// chosen, not measured.
-constexpr double unique_load_length_squared = 2.4;
+// A rod under fixed forces has one equilibrium while its energy is convex, at least up to a unique length
+// (load_length.h) of 6^(1/4), its square 2.45; a uniform one up to pi/2, 2.47. Turns and strains shift that; their
+// limits are chosen, not measured.
+constexpr double unique_length_squared = 2.4;
 constexpr double unique_turn_rad = 0.8;
 constexpr double unique_strain = 0.1;
 
 // What the full load can do to a rod at most.
 struct LoadBounds {
   double load_length = 0;  // of the whole rod
-  double turn_rad = 0;     // by moments, and in space by rest curvature and tendons
-  double strain = 0;       // stretch and shear
+  double unique_length = 0;
+  double turn_rad = 0;  // by moments, and in space by rest curvature and tendons
+  double strain = 0;    // stretch and shear
 };
 
 template <int D>

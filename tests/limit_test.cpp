@@ -65,4 +65,16 @@ TEST(Limit, OfATendonWithoutLength) {
   EXPECT_NE(collapsed.message.find("|v + u x r| = 0, at 70 % of the load"), std::string::npos) << collapsed.message;
 }
 
+// A short soft section at the clamp is a hinge: int sqrt(F/EI) ds is 1.46, below pi/2, and yet the rod has a second
+// stable equilibrium 1.59 L away, where Newton's method ends from the unloaded rod (seen in a campaign; exact reference
+// and finite elements have the other one).
+TEST(LoadGrowth, AHingeAtTheClampIsNotSolvedAtOnce) {
+  const scene::Scene scene = studies::random_scene(studies::campaign_seed(1, 349'653));
+  const double length_mm = scene::length_mm(scene);
+  const scene::Equilibrium answer = fam::solve(scene);
+  const scene::Equilibrium exact = exact_reference::solve(scene);
+  ASSERT_TRUE(answer.converged() && exact.converged());
+  EXPECT_LT((answer.tip().position_B_mm - exact.tip().position_B_mm).norm(), 1e-3 * length_mm);
+}
+
 }  // namespace
