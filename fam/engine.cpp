@@ -102,7 +102,8 @@ std::string Engine::failure_message(Status status) const {
 
 ArcExtent extent_of_arcs(const Engine& engine, std::span<const Span> spans, std::span<const int> arcs_per_span) {
   return {largest_load_length(spans, arcs_per_span),
-          engine.visit([&](const auto& s) { return largest_swing_of(s.solved(), spans, arcs_per_span); })};
+          engine.visit([&](const auto& s) { return largest_swing_of(s.solved(), spans, arcs_per_span); }),
+          engine.visit([](const auto& s) { return unseen_turn_rad(s.solved()); })};
 }
 
 Status verdict(const Engine& engine, Law law, const ArcExtent& extent) {

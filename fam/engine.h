@@ -69,9 +69,13 @@ class Engine {
 // chance: the error estimate is then at least L, and the series of an arc has no answer at all. Chosen, not measured.
 constexpr double longest_load_length = 2.5;  // of an arc: sqrt(force / EI) h
 constexpr double longest_swing_rad = 2.5;    // load_length.h
+// The error over L is taken for at least this times the unseen turn (shape.h). Of eight random scenes with a tendon
+// that all but collapses in a layer thinner than an arc, solved with 8 to 256 arcs, the error is at most 0.13 of it.
+constexpr double unseen_share = 0.2;
 struct ArcExtent {
-  double load_length, swing_rad;
+  double load_length, swing_rad, unseen_turn_rad;
   bool resolved() const { return load_length <= longest_load_length && swing_rad <= longest_swing_rad; }
+  double least_error_over_L(bool trusted) const { return trusted ? unseen_share * unseen_turn_rad : 1; }
 };
 // Of the longest of solved arcs; spans as they were solved (Problem::spans).
 ArcExtent extent_of_arcs(const Engine& engine, std::span<const scene::Span> spans, std::span<const int> arcs_per_span);

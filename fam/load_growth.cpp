@@ -17,6 +17,9 @@ namespace {
 constexpr double largest_turn_rad = 0.5;
 constexpr double largest_smooth_turn_rad = 1;  // the same where no critical point is near
 constexpr double largest_surprise_rad = 0.05;
+// Of the surprise allowed: a Newton step beyond ends the attempt. With 1 a rod of survivors_branch_test.cpp takes three
+// load steps more, since the steps after the first may turn back.
+constexpr double hopeless_turns = 2;
 constexpr double smallest_load_step = 1e-12;  // over the load reached: a column pushed aside by 1e-12 EI/L^2 needs it
 constexpr double smallest_bifurcation_step = 1e-5;  // of the load; chosen, not measured
 constexpr double load_step_tolerance = 1e-6;        // of Newton on the way to the full load, where the last is tighter
@@ -81,14 +84,16 @@ std::optional<double> LoadGrowth<D>::try_step(Shooting<D>& shooting, double to) 
   shooting.set_nodes(guess_);
   shooting.set_load(to);
   const double tolerance = shooting.newton_tolerance();
-  bool accepted = shooting.newton(to < 1 ? std::max(tolerance, load_step_tolerance) : tolerance, &start_determinant_);
+  const double allowed_rad = load_steps_ == 0 ? largest_turn_rad / 2 : largest_surprise_rad;
+  const OnTheWay way{start_determinant_, hopeless_turns * allowed_rad};
+  bool accepted = shooting.newton(to < 1 ? std::max(tolerance, load_step_tolerance) : tolerance, &way);
   double turn = 0;
   double surprise = 0;
   for (std::size_t k = 0; accepted && k < start_.size(); ++k) {
     turn = std::max(turn, turn_between(shooting.nodes()[k], start_[k]));
     surprise = std::max(surprise, turn_between(shooting.nodes()[k], guess_[k]));
   }
-  surprise /= load_steps_ == 0 ? largest_turn_rad / 2 : largest_surprise_rad;
+  surprise /= allowed_rad;
   const bool smooth = !nears_critical(shooting.determinant());
   accepted = accepted && turn <= (smooth ? largest_smooth_turn_rad : largest_turn_rad) && surprise <= 1;
   if (accepted && stays_on_branch(shooting, to - load_factor_)) {

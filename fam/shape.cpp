@@ -117,19 +117,47 @@ BasicWrench<double, D> ArcInterior<D>::wrench(double fraction) {
   return wrench;
 }
 
+namespace {
+
+// v + u x r times the arc's length, by its mean strain.
+template <int D>
+Vector<double, D> tendon_tangent_mm(const SolvedRod<D>& rod, int arc, const BasicTendon<D>& tendon) {
+  const BasicScrew<double, D>& strain = rod.arcs[static_cast<std::size_t>(arc)].screw;
+  return strain.translation_mm + cross(strain.rotation, tendon.arm_mm);
+}
+
+}  // namespace
+
 template <int D>
 bool any_tendon_collapsed(const SolvedRod<D>& rod) {
   for (const SpanArcs<D>& span : rod.spans) {
     if (!span.constants.straight_tendons) continue;
     for (const BasicTendon<D>& tendon : span.constants.tendons) {
       for (int arc = span.first_arc; arc < span.end_arc; ++arc) {
-        const BasicScrew<double, D>& strain = rod.arcs[static_cast<std::size_t>(arc)].screw;
-        const Vector<double, D> t = strain.translation_mm + cross(strain.rotation, tendon.arm_mm);
-        if (!(t[0] > smallest_tendon_stretch * span.constants.length_mm)) return true;
+        const double along_mm = tendon_tangent_mm(rod, arc, tendon)[0];
+        if (!(along_mm > smallest_tendon_stretch * span.constants.length_mm)) return true;
       }
     }
   }
   return false;
+}
+
+template <int D>
+double unseen_turn_rad(const SolvedRod<D>& rod) {
+  double largest_rad = 0;
+  for (const SpanArcs<D>& span : rod.spans) {
+    if (span.constants.straight_tendons) continue;
+    for (const BasicTendon<D>& tendon : span.constants.tendons) {
+      for (int arc = span.first_arc + 1; arc < span.end_arc; ++arc) {
+        const Vector<double, D> before = tendon_tangent_mm(rod, arc - 1, tendon);
+        const Vector<double, D> here = tendon_tangent_mm(rod, arc, tendon);
+        if ((here - before).norm() <= std::min(here.norm(), before.norm())) continue;
+        const auto k = static_cast<std::size_t>(arc);
+        largest_rad = std::max(largest_rad, (rod.arcs[k].screw.rotation - rod.arcs[k - 1].screw.rotation).norm());
+      }
+    }
+  }
+  return largest_rad;
 }
 
 // From the arc's distal end towards the clamp: the forces beyond and the moments of what lies between.
@@ -211,6 +239,8 @@ template class ArcInterior<2>;
 template class ArcInterior<3>;
 template bool any_tendon_collapsed(const SolvedRod<2>&);
 template bool any_tendon_collapsed(const SolvedRod<3>&);
+template double unseen_turn_rad(const SolvedRod<2>&);
+template double unseen_turn_rad(const SolvedRod<3>&);
 template class BasicShape<2>;
 template class BasicShape<3>;
 

@@ -54,6 +54,11 @@ class ArcInterior {
 template <int D>
 bool any_tendon_collapsed(const SolvedRod<D>& rod);
 
+// Where v + u x r of a tendon that is not straight changes from an arc to the next by more than it is, the tendon all
+// but collapses between them, unseen: by how much the turns of two such arcs differ, at most.
+template <int D>
+double unseen_turn_rad(const SolvedRod<D>& rod);
+
 template <int D>
 class BasicShape {
  public:

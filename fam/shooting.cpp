@@ -171,7 +171,6 @@ void Shooting<D>::evaluate_segment(std::size_t k, SegmentEquations& equations) c
   arrival.template bottomLeftCorner<rotations, N>() = fields.moment_Nmm / moment_unit();
 }
 
-// Moves the nodes; the largest change of an unknown.
 template <int D>
 double Shooting<D>::apply(const Eigen::Ref<const Eigen::VectorXd>& step) {
   double largest_turn = 0;
@@ -186,13 +185,13 @@ double Shooting<D>::apply(const Eigen::Ref<const Eigen::VectorXd>& step) {
     nodes_[k].wrench.force_N += shorten * force_unit() * step.segment<D>(at + rotations);
     nodes_[k].wrench.moment_Nmm += shorten * moment_unit() * step.segment<rotations>(at + rotations + D);
   }
-  return step.cwiseAbs().maxCoeff();
+  return largest_turn;
 }
 
 // One segment: the tip's rotation, on the stack. Derivatives are fresh while the steps are long, and after that mended
 // by Broyden's secant update. slope_ holds them between calls, `fresh_slope` says whether it does at the start.
 template <int D>
-bool Shooting<D>::newton_one_segment(bool fresh_slope, double tolerance) {
+bool Shooting<D>::newton_one_segment(bool fresh_slope, double tolerance, const OnTheWay* way) {
   SegmentEquations equations;
   Angular<double, D> step = Angular<double, D>::Zero();
   Angular<double, D> last_residual = step;
@@ -214,7 +213,7 @@ bool Shooting<D>::newton_one_segment(bool fresh_slope, double tolerance) {
     last_residual = residual;
     step = -slope_.inverse() * residual;
     const double size = step.norm();
-    if (!std::isfinite(size)) return false;
+    if (!std::isfinite(size) || (way && size > way->hopeless_turn_rad)) return false;
     if (size > largest_newton_turn_rad) step *= largest_newton_turn_rad / size;
     nodes_[0].rotation_SB = turned(nodes_[0].rotation_SB, step);
     // The next step would be smaller by what this one was, or squared after fresh derivatives.
@@ -268,9 +267,11 @@ bool Shooting<D>::evaluate_system(bool keep_factors, bool& mismatches_are_small)
   return system_.right().allFinite() && (keep_factors || system_.factorise());
 }
 
-// All segments together.
+// All segments together. Where no solution is near, steps with fresh derivatives halve at best and then jump; on the
+// way two of them that do not fall by half are the end. Where rotations are as good as asked for, it is round-off.
 template <int D>
-bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const scene::Determinant* start) {
+bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const OnTheWay* way) {
+  bool kept_last = keep_factors;
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
     ++newton_steps_;
@@ -278,10 +279,15 @@ bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const sce
     if (!evaluate_system(keep_factors, small)) return false;
     system_.substitute();
     if (!system_.right().allFinite()) return false;
-    const double size = apply(system_.right());
+    const double turn_rad = apply(system_.right()), size = system_.right().cwiseAbs().maxCoeff();
+    if (way && turn_rad > way->hopeless_turn_rad) return false;
+    const bool stalls = !keep_factors && size > 0.5 * last;
+    if (stalls && turn_rad <= tolerance) return small;
+    if (stalls && !kept_last && way) return false;
+    kept_last = keep_factors;
     const double shrinkage = std::isfinite(last) ? size / last : 0.1;
     if (size * (keep_factors ? shrinkage : newton_curvature * size) <= tolerance) return small;
-    const bool may_keep = keep_factors || (start && !scene::has_fallen(*start, determinant()));
+    const bool may_keep = keep_factors || (way && !scene::has_fallen(way->start, determinant()));
     keep_factors = may_keep && slopes_last(keep_factors, size, last);
     last = size;
   }
@@ -289,8 +295,8 @@ bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const sce
 }
 
 template <int D>
-bool Shooting<D>::newton(double tolerance, const scene::Determinant* start) {
-  return segments_.size() == 1 ? newton_one_segment(false, tolerance) : newton_segments(false, tolerance, start);
+bool Shooting<D>::newton(double tolerance, const OnTheWay* way) {
+  return segments_.size() == 1 ? newton_one_segment(false, tolerance, way) : newton_segments(false, tolerance, way);
 }
 
 template <int D>

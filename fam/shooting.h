@@ -42,6 +42,13 @@ struct LoadBounds {
   double strain = 0;    // stretch and shear
 };
 
+// What Newton knows of a rod whose load grows.
+struct OnTheWay {
+  scene::Determinant start;  // where the way began; where the present one has not fallen from it, the derivatives of
+                             // the first Newton step serve for the rest
+  double hopeless_turn_rad;  // a Newton step that turns a node farther is the last
+};
+
 template <int D>
 class Shooting {
  public:
@@ -71,9 +78,8 @@ class Shooting {
     for (std::size_t k = 0; k < segments_.size(); ++k) nodes_[k] = state_at(segments_[k].end_arc - 1);
     nodes_.back().wrench = {};
   }
-  // From the nodes as they are to those of the present load. start: the determinant where the way began; where the
-  // present one has not fallen from it, the derivatives of the first step serve for the rest.
-  bool newton(double tolerance, const scene::Determinant* start = nullptr);
+  // From the nodes as they are to those of the present load.
+  bool newton(double tolerance, const OnTheWay* way = nullptr);
   // The full load from the rest shape; first with a quarter of the arcs, whose derivatives then serve for all.
   bool solve_at_once();
   // The full load from the nodes as they are.
@@ -128,12 +134,13 @@ class Shooting {
   // finite, or singular.
   bool evaluate_system(bool keep_factors, bool& mismatches_are_small);
   // fresh_slope, keep_factors: the derivatives at hand serve for the first step.
-  bool newton_one_segment(bool fresh_slope, double tolerance);
-  bool newton_segments(bool keep_factors, double tolerance, const scene::Determinant* start = nullptr);
+  bool newton_one_segment(bool fresh_slope, double tolerance, const OnTheWay* way = nullptr);
+  bool newton_segments(bool keep_factors, double tolerance, const OnTheWay* way = nullptr);
   // Whether derivatives that led to a step of this size do for the next one too.
   static bool slopes_last(bool were_kept, double size, double last_size) {
     return size < 0.4 && (!were_kept || size < 0.5 * last_size);
   }
+  // Moves the nodes by a Newton step; the largest turn of one in it.
   double apply(const Eigen::Ref<const Eigen::VectorXd>& step);
 
   LoadedRod<D> rod_;

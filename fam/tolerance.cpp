@@ -80,6 +80,8 @@ bool is_the_end(const Run& last, const Run& run) {
   if (run.status == Status::work_limit && run.arc_count() > most_arcs_marched / most_newton_steps) return true;
   if (last.converged() || march) return false;
   const double reached = run.engine.load_factor();
+  const bool collapsed = last.status == Status::tendon_collapsed && run.status == Status::tendon_collapsed;
+  if (collapsed && reached < last.engine.load_factor()) return true;  // arcs that see the peak better collapse sooner
   return std::abs(reached - last.engine.load_factor()) <= same_load * reached;
 }
 
@@ -113,8 +115,9 @@ class Ladder {
   double largest_mm(const Distance& d) const { return std::max(d.position_mm, d.rotation_rad * problem_.length_mm()); }
   bool meets(const Run& run, double factor, const Distance& d) {
     const double rest_mm = round_off_mm(problem_, run) + problem_.choice().rod.left_out_mm;
-    error_mm_ = factor * d.position_mm + rest_mm;
-    if (run.extent(problem_).swing_rad > longest_swing_rad) error_mm_ = std::max(error_mm_, problem_.length_mm());
+    const ArcExtent extent = run.extent(problem_);
+    const double least_mm = extent.least_error_over_L(extent.swing_rad <= longest_swing_rad) * problem_.length_mm();
+    error_mm_ = std::max(factor * d.position_mm + rest_mm, least_mm);
     needed_mm_ = std::max(error_mm_, factor * largest_mm(d) + rest_mm);
     return needed_mm_ <= problem_.tolerance_mm();
   }
@@ -149,7 +152,8 @@ double estimate_by_doubling_mm(const Problem& problem, const Run& run, Run& spar
   if (!spare.converged()) return std::numeric_limits<double>::infinity();
   const double factor = std::pow(2, facts_of(problem.choice().law).order);
   const double error_mm = factor / (factor - 1) * distance(run, spare).position_mm + round_off_mm(problem, run);
-  const double least_mm = run.extent(problem).resolved() ? 0 : problem.length_mm();
+  const ArcExtent extent = run.extent(problem);
+  const double least_mm = extent.least_error_over_L(extent.resolved()) * problem.length_mm();
   return std::max(error_mm, least_mm) + problem.choice().rod.left_out_mm;
 }
 
