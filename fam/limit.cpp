@@ -35,7 +35,12 @@ PathWalk::Settings settings_for(const scene::Scene& scene) {
   return settings;
 }
 
-// The equilibrium under the full loads that a place of the path is near.
+// Where arcs are given there is no tolerance to be missed.
+bool misses(const Problem& problem, double error_mm) {
+  return problem.options().arcs == 0 && !(error_mm <= problem.tolerance_mm());
+}
+
+// The equilibrium under the full loads that a place of the path is near, on as many arcs as the tolerance takes.
 std::optional<Equilibrium> equilibrium_at(const scene::Scene& scene, const Options& options, PathStepper& stepper,
                                           const SavedPlace& saved, bool after_snap) {
   const PathPlace place = stepper.restored(saved);
@@ -48,10 +53,16 @@ std::optional<Equilibrium> equilibrium_at(const scene::Scene& scene, const Optio
   Run run;
   run.set(problem, saved.mesh.arcs);
   run.status = run.engine.run_on([&](int arc) { return states[static_cast<std::size_t>(arc)]; });
+  double error_mm = place.accuracy.error_mm;
+  for (Run finer; run.converged() && misses(problem, error_mm); std::swap(run, finer)) {
+    error_mm = estimate_by_doubling_mm(problem, run, finer);
+    if (!misses(problem, error_mm) || 2 * finer.arc_count() > max_arcs) break;
+  }
   if (!run.converged()) return std::nullopt;
+  if (misses(problem, error_mm)) return tolerance_not_met(problem, run, error_mm);
   std::optional<bool> stable;
   if (place.index) stable = *place.index == 0;
-  Equilibrium result = success(problem, run, place.accuracy.error_mm, stable,
+  Equilibrium result = success(problem, run, error_mm, stable,
                                after_snap ? "after the rod has snapped" : "its path followed by arc length");
   if (after_snap) result.model.emplace_back("after_snap", true);
   return result;

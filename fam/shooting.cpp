@@ -272,6 +272,7 @@ bool Shooting<D>::evaluate_system(bool keep_factors, bool& mismatches_are_small)
 template <int D>
 bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const OnTheWay* way) {
   bool kept_last = keep_factors;
+  int stalled = 0;
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
     ++newton_steps_;
@@ -283,7 +284,7 @@ bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const OnT
     if (way && turn_rad > way->hopeless_turn_rad) return false;
     const bool stalls = !keep_factors && size > 0.5 * last;
     if (stalls && turn_rad <= tolerance) return small;
-    if (stalls && !kept_last && way) return false;
+    if (way && stalls && !kept_last && ++stalled == most_stalled_steps) return false;
     kept_last = keep_factors;
     const double shrinkage = std::isfinite(last) ? size / last : 0.1;
     if (size * (keep_factors ? shrinkage : newton_curvature * size) <= tolerance) return small;

@@ -21,6 +21,7 @@ namespace fam {
 constexpr double segment_load_length = 1.6;      // chosen, not measured
 constexpr double largest_newton_turn_rad = 0.5;  // of a node in a step, which is shortened beyond; chosen, not measured
 constexpr int max_newton_steps = 20;
+constexpr int most_stalled_steps = 2;  // longer than half the last; beside a critical point one is no bad sign
 // Newton ends where the next step is expected below the tolerance: rotations in rad, moments in EI/L, forces in EI/L^2.
 // The expectation is newton_curvature times the step squared after fresh derivatives, else the step times the last
 // shrinkage. Chosen, not measured.

@@ -53,6 +53,16 @@ TEST(Limit, IsNoneWhereThePathArrives) {
   expect_exact_tip(studies::random_scene(40160));
 }
 
+// The path keeps 1e-4 L, what it arrives at the tolerance asked for.
+TEST(Limit, WhereThePathArrivesTheToleranceIsKept) {
+  const scene::Scene scene = studies::random_scene(40160);
+  const double tolerance_mm = 1e-5 * scene::length_mm(scene);
+  const Equilibrium found = solved(scene, 1e-5), exact = exact_reference::solve(scene, {});
+  ASSERT_TRUE(found.converged() && exact.converged());
+  EXPECT_LE(found.error_estimate_mm, tolerance_mm);
+  EXPECT_LT((found.tip().position_B_mm - exact.tip().position_B_mm).norm(), tolerance_mm);
+}
+
 // The energy of its sections has a kink where a tendon's path has no length, next to its minimum.
 TEST(Limit, IsNoneWhereATendonIsShort) {
   expect_exact_tip(studies::random_scene(95800));
