@@ -3,6 +3,7 @@
 #include "exact_reference/limit.h"
 #include "exact_reference/shape.h"
 #include "exact_reference/shooting.h"
+#include "exact_reference/solve.h"
 #include "exact_reference/stability.h"
 #include "scene/branch_watch.h"
 #include "scene/path.h"
@@ -259,8 +260,7 @@ scene::Equilibrium solve_boundary_value(std::span<const ScaledRod> way, double t
   if (reached != nullptr) *reached = {path.shooting.mesh(), path.y};
   const double error = solve_accurately(path, tolerance);
   if (error < 0 && path.exhausted()) return stopped(rod, path);
-  const double worst_error = std::max(1e-6, tolerance);  // beyond it the answer is not worth its name
-  if (!(error >= 0 && error <= worst_error)) {
+  if (!(error >= 0 && error <= std::max(worst_error, tolerance))) {
     result.status = scene::Status::not_converged;
     result.message = text("the tip still moves by %.3g of the length when the mesh is halved", std::abs(error));
     if (error < 0) result.message = "Newton's iteration does not converge on the fine mesh";

@@ -1,6 +1,7 @@
 #include "exact_reference/initial_value.h"
 
 #include "exact_reference/rod_equations.h"
+#include "exact_reference/solve.h"
 #include "exact_reference/stations.h"
 
 #include <Eigen/Geometry>
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace exact_reference {
@@ -230,22 +232,43 @@ scene::Equilibrium stopped(bool tendon_collapsed) {
   return result;
 }
 
+double error_over_L(const MarchPair& pair) {
+  constexpr double roundoff_per_step = 2e-16;
+  const double change =
+      difference(states_in_base_frame(pair.places, pair.rough), states_in_base_frame(pair.places, pair.fine));
+  return std::max(change, pair.fine.invariant_drift) + roundoff_per_step * static_cast<double>(pair.fine.steps);
+}
+
+scene::Equilibrium not_accurate(double error) {
+  scene::Equilibrium result;
+  result.status = scene::Status::not_converged;
+  char text[100];
+  std::snprintf(text, sizeof text, "two tolerances of the integration still differ by %.3g of the length", error);
+  result.message = text;
+  return result;
+}
+
 }  // namespace
 
 scene::Equilibrium solve_initial_value(const ScaledRod& rod, double tolerance) {
-  const double cvode_tolerance = std::clamp(tolerance / 500, 2e-15, 1e-6);
+  constexpr double tightest = 2e-15, tighter = 0.01;  // the latter chosen, not measured
+  const double allowed = std::max(worst_error, tolerance);
   const std::vector<double> places = places_by_turn(rod);
-  const MarchPair pair = march_twice(rod, places, cvode_tolerance);
-  if (!pair.finished()) return stopped(pair.rough.tendon_collapsed || pair.fine.tendon_collapsed);
+  MarchPair pair;
+  double error = HUGE_VAL;
+  for (double cvode = std::clamp(tolerance / 500, tightest, 1e-6);; cvode = std::max(tightest, tighter * cvode)) {
+    pair = march_twice(rod, places, cvode);
+    if (!pair.finished()) return stopped(pair.rough.tendon_collapsed || pair.fine.tendon_collapsed);
+    error = error_over_L(pair);
+    if (error <= allowed || cvode <= tightest) break;
+  }
+  if (!(error <= allowed)) return not_accurate(error);
   const std::vector<PlacedState> states = states_in_base_frame(places, pair.fine);
   scene::Equilibrium result;
   result.status = scene::Status::converged;
   set_shape(result, rod, states);
   result.tendon_shortening_mm = tendon_shortening_mm(rod, states);
-  constexpr double roundoff_per_step = 2e-16;
-  const double change = difference(states_in_base_frame(places, pair.rough), states);
-  result.error_estimate_mm = rod.length_mm * (std::max(change, pair.fine.invariant_drift) +
-                                              roundoff_per_step * static_cast<double>(pair.fine.steps));
+  result.error_estimate_mm = rod.length_mm * error;
   result.model.emplace_back("steps", static_cast<int>(pair.fine.steps));
   return result;
 }

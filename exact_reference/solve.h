@@ -9,6 +9,9 @@
 
 namespace exact_reference {
 
+// An error estimate beyond this over L, or beyond the tolerance if that is more, is no answer: not_converged.
+constexpr double worst_error = 1e-6;
+
 enum class Way {
   automatic,      // initial_value where all loads follow, else boundary_value
   initial_value,  // follower loads and tendons only; any other load: status unsupported
@@ -38,8 +41,8 @@ scene::Equilibrium solve(const scene::Scene& scene, const Options& options = {})
 
 // The equilibrium that the rod reaches when its loads go in a straight line from zero to those of the first scene, from
 // there to those of the second, and so on; always by boundary_value. The scenes have one rod and the same kinds of
-// load. limit_point, with the share of the last part of the way, or load_step_too_small also where no equilibrium continues
-// that reached on the way.
+// load. limit_point, with the share of the last part of the way, or load_step_too_small also where no equilibrium
+// continues that reached on the way.
 scene::Equilibrium solve_along(std::span<const scene::Scene> scenes, const Options& options = {});
 
 }  // namespace exact_reference

@@ -13,9 +13,7 @@ struct Judged {
   exact_reference::Certificate certificate;
   std::optional<scene::Equilibrium> exact;  // where it was asked
   double position = 0, tip = 0;             // errors over L, by the exact reference where it was asked and converged
-  // Further off than allowed, but no further than the reference at two tolerances from itself.
-  bool unresolved = false;
-  bool by_exact() const { return exact && exact->converged() && !unresolved; }
+  bool by_exact() const { return exact && exact->converged(); }
 };
 
 // The exact reference resolves 1e-9 L, a certificate's equilibrium this, unless tolerances are given.
@@ -23,8 +21,7 @@ struct JudgeTolerances {
   double certificate = 1e-7, exact = 1e-9;
 };
 
-// ask_exact: in any case; else where the certificate does not hold `allowed` (over L). Where the answer is further off
-// than that, the exact reference is asked again, a hundred times as fine.
+// ask_exact: in any case; else where the certificate does not hold `allowed` (over L).
 Judged judged(const scene::Scene& scene, const scene::Equilibrium& answer, double allowed, bool ask_exact,
               const JudgeTolerances& tolerances = {});
 
