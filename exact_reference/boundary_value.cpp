@@ -29,6 +29,11 @@ constexpr double most_rest_turn_rad = 1e4;    // two intervals a radian, and so 
 constexpr double longest_step_on_way = 0.05;  // loads that turn back pass where branches meet; chosen, not measured
 constexpr double smallest_step = 1e-8;        // of the load reached or of the first step, whichever is larger
 
+struct Tolerances {
+  double local_error, volume_change, newton;
+};
+constexpr Tolerances on_the_way{1e-6, 1e-3, 1e-8};
+
 // Largest rotation between two sets of node states; a small quaternion change is half a rotation.
 template <class States>
 double largest_turn(const States& a, const NodeStates& b) {
@@ -49,6 +54,8 @@ struct Path {
   scene::Symmetry symmetry = scene::Symmetry::none;
   double load_size = 0;  // of ScaledRod
   double longest_step = 1;
+  MeshedStates far = {};  // the last state that a step of far_step led to, at far_load
+  double far_load = 0;
   scene::BranchWatch branch = {};  // by the determinant of the equations' derivatives
 
   Convergence newton(NodeStates& states, double load_factor, double tolerance, int max_iterations) {
@@ -79,19 +86,54 @@ bool watches_determinant(const Path& path) {
 void look_back(Path& path) {
   const double little = 0.01 / std::max(path.load_size, 1.0);
   NodeStates y = path.y;
-  path.newton(y, -little, 1e-8, 8);
+  path.newton(y, -little, on_the_way.newton, 8);
   path.branch.keep(-little, path.shooting.determinant(y, -little));
   path.branch.keep(0, path.shooting.determinant(path.y, 0));
 }
 
-// Predicts, corrects, judges one step from the state that the tangent belongs to; leaves the path as it was if it is
+// The path ahead: its tangent and, to second order, how that has changed over the last step, if the mesh is still that
+// one and the change was small: beside a bifurcation it is not.
+struct Prediction {
+  std::vector<Core> tangent, last_tangent;
+  double load = 0, last_step = 0;
+
+  void start_at(double next_load, std::vector<Core> next_tangent) {
+    last_tangent = std::exchange(tangent, std::move(next_tangent));
+    last_step = is_smooth() ? next_load - load : 0;
+    load = next_load;
+  }
+
+  bool is_smooth() const {
+    constexpr double small = 0.5;
+    if (last_tangent.size() != tangent.size()) return false;
+    double change = 0, size = 0;
+    for (std::size_t k = 0; k < tangent.size(); ++k) {
+      change += (tangent[k] - last_tangent[k]).squaredNorm();
+      size += tangent[k].squaredNorm();
+    }
+    return change <= small * small * size;
+  }
+
+  NodeStates ahead(NodeStates y, double step) const {
+    for (std::size_t k = 0; k < y.size(); ++k) {
+      y[k].head<core_size>() += step * tangent[k];
+      if (last_step > 0) y[k].head<core_size>() += step * step / (2 * last_step) * (tangent[k] - last_tangent[k]);
+    }
+    return y;
+  }
+};
+
+// Of the load reached. The search for a fold starts from the last state that such a step led to: where steps have
+// shrunk to nothing it would start within round-off of the fold, or behind it.
+constexpr double far_step = 1e-3;
+
+// Predicts, corrects, judges one step from the state that the prediction belongs to; leaves the path as it was if it is
 // refused. Returns the miss, infinite if refused.
-double try_step(Path& path, const std::vector<Core>& tangent, double step) {
-  NodeStates predicted = path.y;
-  for (std::size_t k = 0; k < predicted.size(); ++k) predicted[k].head<core_size>() += step * tangent[k];
+double try_step(Path& path, const Prediction& prediction, double step) {
+  const NodeStates predicted = prediction.ahead(path.y, step);
   if (largest_turn(predicted, path.y) > 2 * largest_turn_rad) return HUGE_VAL;
   NodeStates corrected = predicted;
-  const Convergence newton = path.newton(corrected, path.load + step, 1e-8, 8);
+  const Convergence newton = path.newton(corrected, path.load + step, on_the_way.newton, 8);
   const double miss = largest_turn(corrected, predicted);
   const bool jumped = !(miss <= largest_miss_rad) || !(largest_turn(corrected, path.y) <= largest_turn_rad);
   if (!newton.converged || jumped) return HUGE_VAL;
@@ -106,11 +148,6 @@ double try_step(Path& path, const std::vector<Core>& tangent, double step) {
   path.branch.keep(path.load + step, determinant);
   return miss;
 }
-
-struct Tolerances {
-  double local_error, volume_change, newton;
-};
-constexpr Tolerances on_the_way{1e-6, 1e-3, 1e-8};
 
 // Refines until each local error is below the tolerance; Newton's iteration after each refinement.
 bool adapt(Path& path, const Tolerances& tolerances) {
@@ -128,12 +165,13 @@ bool adapt(Path& path, const Tolerances& tolerances) {
 bool follow_load(Path& path) {
   double first_step = 0;
   double step = 1;
+  Prediction prediction;
   if (watches_determinant(path)) look_back(path);
   while (path.load < 1) {
-    const std::vector<Core> tangent = path.shooting.tangent(path.y, path.load);
+    prediction.start_at(path.load, path.shooting.tangent(path.y, path.load));
     if (first_step == 0) {
       double slope = 0;
-      for (const Core& t : tangent) slope = std::max(slope, 2 * t.head<4>().norm());
+      for (const Core& t : prediction.tangent) slope = std::max(slope, 2 * t.head<4>().norm());
       step = first_step = std::min(1 / std::max(path.load_size, 1.0), first_turn_rad / std::max(slope, first_turn_rad));
       if (!(first_step > 0)) return false;  // a load or a slope overflows
     }
@@ -142,7 +180,7 @@ bool follow_load(Path& path) {
     for (;;) {
       const bool to_the_end = path.load + 1.01 * step >= 1;
       const double trial = to_the_end ? 1 - path.load : step;
-      miss = try_step(path, tangent, trial);
+      miss = try_step(path, prediction, trial);
       if (miss < HUGE_VAL) {
         path.load = to_the_end ? 1 : path.load + trial;
         step = trial;
@@ -153,7 +191,11 @@ bool follow_load(Path& path) {
     }
     if (++path.steps > most_load_steps || path.exhausted()) return false;
     if (!adapt(path, on_the_way)) return false;
-    step *= std::clamp(std::sqrt(largest_miss_rad / 4 / std::max(miss, 1e-6)), 0.5, 3.0);
+    if (step >= far_step * path.load) {
+      path.far = {path.shooting.mesh(), path.y};
+      path.far_load = path.load;
+    }
+    step *= std::clamp(std::cbrt(largest_miss_rad / 4 / std::max(miss, 1e-6)), 0.5, 3.0);
   }
   return true;
 }
@@ -165,7 +207,11 @@ bool start_stage(Path& path, const ScaledRod& rod) {
   path.symmetry = rod.symmetry;
   path.load_size = rod.load_size();
   path.branch = {};
-  return adapt(path, on_the_way);
+  path.far = {};
+  if (!adapt(path, on_the_way)) return false;
+  path.far = {path.shooting.mesh(), path.y};
+  path.far_load = 0;
+  return true;
 }
 
 // Largest error of a node's position over L, estimated by the change that halving the mesh makes; keeps the finer mesh.
@@ -217,6 +263,11 @@ std::string text(const char* format, double value) {
   return buffer;
 }
 
+std::optional<double> fold_beyond(const ScaledRod& rod, const Path& path) {
+  if (path.far.y.empty()) return std::nullopt;
+  return fold_ahead(rod, path.far, path.far_load);
+}
+
 scene::Equilibrium stopped(const ScaledRod& rod, const Path& path) {
   scene::Equilibrium result;
   result.status = scene::Status::load_step_too_small;
@@ -228,7 +279,7 @@ scene::Equilibrium stopped(const ScaledRod& rod, const Path& path) {
   } else if (path.exhausted() || path.steps > most_load_steps) {
     result.status = scene::Status::work_limit;
     result.message = text("given up at %.6g of the load: a rod that turns so much takes too many steps", path.load);
-  } else if (const auto fold = fold_ahead(rod, {path.shooting.mesh(), path.y}, path.load)) {
+  } else if (const auto fold = fold_beyond(rod, path)) {
     result.status = scene::Status::limit_point;
     result.message = text("snaps at %.1f %% of the load", 100 * *fold);
     result.limit = {*fold, name(scene::PathPoint::Kind::fold)};

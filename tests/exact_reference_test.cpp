@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace exact_test;
@@ -160,6 +161,15 @@ TEST(ExactReference, PureCompressionStaysStraightAndSaysSo) {  // Euler load: 2.
     EXPECT_LT((tip_mm(result) - Vector3d(40, 0, 0)).norm(), 1e-9) << force;
     EXPECT_EQ(result.stable, force < 2.3132);
   }
+}
+
+// A moment that winds the rod up by 100 rad, to a circle. Steps are predicted to second order: 167, to first order 333.
+TEST(ExactReference, StepsOfSecondOrder) {
+  const scene::Equilibrium result =
+      solve(tip_moment(uniform_rod(1, 1, 1), Frame::follower, {0, 0, 100}), Way::boundary_value);
+  EXPECT_LT((tip_mm(result) - Vector3d(std::sin(100.0), 1 - std::cos(100.0), 0) / 100).norm(), 1e-11) << result.message;
+  const auto steps = std::ranges::find(result.model, "load_steps", [](const auto& entry) { return entry.first; });
+  EXPECT_LT(std::get<int>(steps->second), 200);
 }
 
 TEST(ExactReference, RefusesAndReports) {
