@@ -10,12 +10,6 @@ using Eigen::Vector3d;
 using Eigen::Vector4d;
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
-Matrix3d cross_matrix(const Vector3d& a) {
-  Matrix3d m;
-  m << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-  return m;
-}
-
 // d(R x)/dq for sign = +1, d(R^T x)/dq for sign = -1, of R x = (w^2 - v.v) x + 2 v (v.x) + 2 w v x x.
 Matrix34 rotated_by_quaternion(const Vector4d& q, const Vector3d& x, double sign) {
   const double w = q[0];
@@ -28,6 +22,12 @@ Matrix34 rotated_by_quaternion(const Vector4d& q, const Vector3d& x, double sign
 }
 
 }  // namespace
+
+Matrix3d cross_matrix(const Vector3d& a) {
+  Matrix3d m;
+  m << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
+  return m;
+}
 
 Matrix3d rotation_of(const Vector4d& q) {
   const double w = q[0], x = q[1], y = q[2], z = q[3];
@@ -109,21 +109,21 @@ RodEquations::Compliance RodEquations::compliance(const Strains& strains) const 
   return {C.topLeftCorner<3, 3>(), C.topRightCorner<3, 3>(), C.bottomRightCorner<3, 3>()};
 }
 
-State RodEquations::derivative(const State& y) const {
-  const Vector4d q = y.head<4>();
-  const Vector3d N = y.segment<3>(4);
-  const Matrix3d R = rotation_of(q);
-  const auto [u, v] = strains_S(R.transpose() * N, R.transpose() * y.segment<3>(7));
-  const Vector3d tangent = R * v;
+State RodEquations::derivative(const State& y, const Matrix3d& R, const Strains& strains) const {
+  const Vector3d tangent = R * strains.stretch_S;
   State dy;
-  dy.head<4>() = quaternion_derivative(q, u);
+  dy.head<4>() = quaternion_derivative(y.head<4>(), strains.curvature_S);
   dy.segment<3>(4) = -loads_.fixed_density_B - R * loads_.follower_density_S;
-  dy.segment<3>(7) = -tangent.cross(N);
+  dy.segment<3>(7) = -tangent.cross(y.segment<3>(4));
   dy.tail<3>() = tangent;
   return dy;
 }
 
-CoreMatrix RodEquations::jacobian(const State& y) const {
+State RodEquations::derivative(const State& y) const {
+  return derivative(y, rotation_of(y.head<4>()), strains(y));
+}
+
+State RodEquations::derivative(const State& y, CoreMatrix& J) const {
   const Vector4d q = y.head<4>();
   const Vector3d N = y.segment<3>(4), M = y.segment<3>(7);
   const Matrix3d R = rotation_of(q);
@@ -144,7 +144,7 @@ CoreMatrix RodEquations::jacobian(const State& y) const {
   const Matrix34 tangent_by_q = rotated_by_quaternion(q, v, 1) + R * (C.vn * n_by_q + C.un.transpose() * m_by_q);
   const Matrix3d tangent_by_N = R * C.vn * R.transpose(), u_by_N = C.un * R.transpose();
 
-  CoreMatrix J = CoreMatrix::Zero();
+  J.setZero();
   J.block<4, 4>(0, 0) = dq_by_q + dq_by_u * (C.um * m_by_q + C.un * n_by_q);
   J.block<4, 3>(0, 4) = dq_by_u * u_by_N;
   J.block<4, 3>(0, 7) = dq_by_u * (C.um * R.transpose());
@@ -152,7 +152,7 @@ CoreMatrix RodEquations::jacobian(const State& y) const {
   J.block<3, 4>(7, 0) = cross_matrix(N) * tangent_by_q;
   J.block<3, 3>(7, 4) = cross_matrix(N) * tangent_by_N - cross_matrix(tangent);
   J.block<3, 3>(7, 7) = cross_matrix(N) * (R * C.un.transpose() * R.transpose());
-  return J;
+  return derivative(y, R, strains);
 }
 
 void RodEquations::wrench_derivative_S(const Vector3d& n, const Vector3d& m, const Strains& strains, Vector3d& dn,

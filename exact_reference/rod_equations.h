@@ -38,7 +38,8 @@ class RodEquations {
   RodEquations(const ScaledSpan& span, double load_factor);
 
   State derivative(const State& y) const;
-  CoreMatrix jacobian(const State& y) const;  // of the first ten derivatives by the first ten unknowns
+  // And those of the first ten derivatives by the first ten unknowns.
+  State derivative(const State& y, CoreMatrix& jacobian) const;
 
   // u and v under a wrench in the section frame. Not a number where a tendon's path has no length.
   Strains strains_S(const Eigen::Vector3d& force_S, const Eigen::Vector3d& moment_S) const;
@@ -64,12 +65,15 @@ class RodEquations {
     Eigen::Matrix3d um, un, vn;
   };
   Compliance compliance(const Strains& strains) const;
+  State derivative(const State& y, const Eigen::Matrix3d& R, const Strains& strains) const;
   TendonStrains tendon_strains() const;
 
   const ScaledSpan& span_;
   double load_factor_;
   SpanLoads loads_;
 };
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a);  // times b: a x b
 
 // q' = 1/2 q (0, u).
 Eigen::Vector4d quaternion_derivative(const Eigen::Vector4d& q, const Eigen::Vector3d& curvature_S);

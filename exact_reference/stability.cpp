@@ -15,20 +15,15 @@ Matrix3d symmetric_part(const Matrix3d& m) {
   return (m + m.transpose()) / 2;
 }
 
-// Second variation of one interval: 1/2 (a, b) K (a, b) with a, b the small rotations of its ends, in the base frame.
-struct IntervalForm {
-  Matrix3d start_start, start_end, end_end;
+// (b, M_b) = [A B; C D] (a, M_a): a, b the small rotations of an interval's ends, in the base frame.
+struct IntervalMap {
+  Matrix3d A, B, C, D;
 };
 
-// From (b, M_b) = [A B; C D] (a, M_a): M_a = B^-1 (b - A a), and the form's gradient is (-M_a, M_b). The diagonal
-// blocks have the skew parts -+ [M]x/2 that come of varying M in the base frame; they cancel where intervals meet.
-IntervalForm interval_form(const State& start, const State& end, const CoreMatrix& S) {
+IntervalMap interval_map(const State& start, const State& end, const CoreMatrix& S) {
   const Eigen::Matrix<double, 4, 3> from = quaternion_tangent(start.head<4>());
   const Eigen::Matrix<double, 3, 4> to = 4 * quaternion_tangent(end.head<4>()).transpose();
-  const Matrix3d A = to * S.block<4, 4>(0, 0) * from;
-  const Matrix3d B_inverse = (to * S.block<4, 3>(0, 7)).inverse();
-  const Matrix3d D = S.block<3, 3>(7, 7);
-  return {symmetric_part(B_inverse * A), -B_inverse, symmetric_part(D * B_inverse)};
+  return {to * S.block<4, 4>(0, 0) * from, to * S.block<4, 3>(0, 7), S.block<3, 4>(7, 0) * from, S.block<3, 3>(7, 7)};
 }
 
 }  // namespace
@@ -42,11 +37,14 @@ std::optional<int> falling_directions(const Shooting& shooting, const NodeStates
   int count = 0;
   Matrix3d beyond = Matrix3d::Zero();  // form of everything distal, as a function of the rotation here
   for (std::size_t i = shooting.mesh().size(); i-- > 0;) {
-    const IntervalForm form = interval_form(shooting.start_state(y, load, i), linear.ends[i], linear.sensitivities[i]);
+    const auto [A, B, C, D] = interval_map(shooting.start_state(y, load, i), linear.ends[i], linear.sensitivities[i]);
     if (shooting.mesh()[i].ends_span) beyond += shooting.equations(i, load).arms_second_variation(y[i + 1]);
-    const Matrix3d pivot = form.end_end + beyond;
-    // Measured by the interval's own form, so that stiff and soft axes count alike; signs are the same (Sylvester).
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix3d> eigen(pivot, form.end_end, Eigen::EigenvaluesOnly);
+    // What varying M in the base frame adds to the symmetric forms on both sides of a node.
+    const Matrix3d P = beyond + cross_matrix(linear.ends[i].segment<3>(7)) / 2, W = D + P * B;
+    // Both forms of the moments that turn the interval's end, not of its rotations (Sylvester: the signs are the same);
+    // measured by the interval's own, so that stiff and soft axes count alike.
+    const Matrix3d pivot = symmetric_part(B.transpose() * W), own_form = symmetric_part(B.transpose() * D);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix3d> eigen(pivot, own_form, Eigen::EigenvaluesOnly);
     Eigen::Vector3d values = eigen.eigenvalues();
     // No pivot before the last is singular, so that the form's zero is the last one's.
     if (turns_freely && i == 0) {
@@ -54,11 +52,11 @@ std::optional<int> falling_directions(const Shooting& shooting, const NodeStates
       values.cwiseAbs().minCoeff(&free);
       values[free] = 1;
     }
-    const Eigen::Vector3d own = form.end_end.selfadjointView<Eigen::Lower>().eigenvalues();
-    const double neutral = unresolved + 16 * intervals * epsilon * std::abs(own[1] / own[0]);
+    const Eigen::Vector3d own = own_form.selfadjointView<Eigen::Lower>().eigenvalues();
+    const double neutral = unresolved + 16 * intervals * epsilon * std::abs(own[2] / own[1]);
     if (!values.allFinite() || !(values.cwiseAbs().minCoeff() >= neutral)) return std::nullopt;
     count += static_cast<int>((values.array() < 0).count());
-    beyond = form.start_start - symmetric_part(form.start_end * pivot.inverse() * form.start_end.transpose());
+    beyond = symmetric_part(W.inverse() * (C + P * A));
   }
   return count;
 }

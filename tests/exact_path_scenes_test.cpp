@@ -186,6 +186,18 @@ TEST(ExactPathScenes, BranchesThatAllButMeet) {
   }
 }
 
+// A strip a million times stiffer edgewise than flat, which a tip force bends sideways: stable all along this branch,
+// as finite elements and FAM count, too. An interval's stiffness, the inverse of its compliance, would leave round-off.
+TEST(ExactPathScenes, IndexOfAStripOnEdge) {
+  scene::Scene rod = uniform_rod(100, 1000, 1000);
+  stiffness(rod).bending_Nmm2[1] = 1e9;
+  scene::PathRequest request = load_growth(tip_force(rod, Frame::fixed, {0, 0.1, 0}), 12);
+  request.branches = 1;
+  const scene::Path path = complete_path(request);
+  EXPECT_EQ(indices(path, 0), (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(indices(path, 1), std::vector<int>{0});
+}
+
 // A thrust that is turned through the axis of a round rod: there all turned shapes are equilibria at one parameter.
 TEST(ExactPathScenes, ACircleAtOneParameter) {
   scene::PathRequest request;
