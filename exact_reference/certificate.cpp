@@ -21,7 +21,7 @@ constexpr int most_intervals = 20'000;
 constexpr int most_newton_steps = 8;
 constexpr int unloaded_intervals = 8;
 // A station between two nodes is left out where the interval stays as short as this; the mesh is refined afterwards.
-constexpr double longest_interval = 1.0 / 16, most_turn_rad = 0.5;
+constexpr double longest_interval = 1.0 / 6, most_turn_rad = 0.5;
 constexpr double most_growth = 2;  // sqrt(N K_u^-1) h of a taut rod, which grows by its exponential along an interval
 
 // The stations' states in the rod's units and axes, the tendons' pulls in the wrenches.

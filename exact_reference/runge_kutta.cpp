@@ -52,14 +52,14 @@ State runge_kutta_step(const RodEquations& equations, const State& y, double h) 
 State runge_kutta_step(const RodEquations& equations, const State& y, double h, CoreMatrix& sensitivity) {
   std::array<State, stages> slopes;
   std::array<CoreMatrix, stages> slope_sensitivities;
-  slopes[0] = equations.derivative(y);
-  slope_sensitivities[0] = equations.jacobian(y);
+  CoreMatrix jacobian;
+  slopes[0] = equations.derivative(y, slope_sensitivities[0]);
   for (int i = 1; i < stages; ++i) {
     const State stage = y + h * combined(slopes, i);
     CoreMatrix stage_sensitivity = h * combined(slope_sensitivities, i);
     stage_sensitivity.diagonal().array() += 1;
-    slopes[i] = equations.derivative(stage);
-    slope_sensitivities[i].noalias() = equations.jacobian(stage) * stage_sensitivity;
+    slopes[i] = equations.derivative(stage, jacobian);
+    slope_sensitivities[i] = jacobian.lazyProduct(stage_sensitivity);
   }
   sensitivity = h * combined(slope_sensitivities, stages);
   sensitivity.diagonal().array() += 1;
