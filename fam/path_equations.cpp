@@ -18,6 +18,9 @@ using scene::Symmetry;
 constexpr int rotations = path_rows::of_rotations, per_node = path_rows::of_node;
 // Of the parameter's unit, in the difference quotient by it: its error is the square of it. Chosen, not measured.
 constexpr double parameter_difference = 1e-5;
+// Of Newton's method, from which on a one-sided difference does: then its error, 5e-6, is below the tolerance times the
+// last step, and no fold moves by it, where the equations are singular whatever the parameter does.
+constexpr double rough_tolerance = 1e-9;
 constexpr int most_path_newton_steps = 8;
 
 // The rows of a border stand behind those of the segment whose node they hold.
@@ -187,6 +190,12 @@ PathEquations::Change PathEquations::by_parameter(const PathState& state) {
   return (at(p + h) - at(p - h)) * (settings_.unit / (2 * h));
 }
 
+// The same to first order, from the residual at the state.
+PathEquations::Change PathEquations::by_parameter_roughly(const PathState& state, const Change& residual) {
+  const double h = parameter_difference * settings_.unit * (state.parameter < settings_.highest ? 1 : -1);
+  return (residual_at(state, state.parameter + h) - residual) * (settings_.unit / h);
+}
+
 // Of the tip's segment, by a moment about the base's x axis on the tip.
 PathEquations::Change PathEquations::by_axial_moment(const PathState& state) {
   constexpr double difference = 1e-4;
@@ -233,25 +242,24 @@ void PathEquations::add_border(const PathBorder& border) {
   }
 }
 
-// Matrix and right-hand side at a state; false: not finite. with_parameter: the parameter's column, too, else that of
-// the last state.
-bool PathEquations::evaluate(const PathState& state, const PathBorder& border, bool with_parameter) {
-  if (with_parameter) parameter_column_ = by_parameter(state);
+// Matrix and right-hand side at a state; false: not finite. roughly: of the parameter's column.
+bool PathEquations::evaluate(const PathState& state, const PathBorder& border, bool roughly) {
   set_parameter(state.parameter);
   shooting_.set_nodes(state.nodes);
   add_border(border);
   const int columns = static_cast<int>(unknowns_);
   right_ = Eigen::VectorXd::Zero(system_.size());
   const Change axial = border.phase ? by_axial_moment(state) : Change();
+  Change residual = zero_change();
   bool finite = true;
   for (std::size_t k = 0; k < mesh_.segments.size(); ++k) {
     const auto equations = shooting_.equations(k, true);
     const bool is_tip = k + 1 == mesh_.segments.size();
     const int column = per_node * static_cast<int>(k);
+    residual.segment(first_row(k), row_count(k)) = equations.residual.head(row_count(k));
     for (int i = 0; i < row_count(k); ++i) {
       const int row = row_of(first_row(k) + i);
       for (int j = 0; j < (is_tip ? rotations : per_node); ++j) system_(row, column + j) = equations.arrival(i, j);
-      system_(row, columns) = parameter_column_[first_row(k) + i];
       if (border.phase) system_(row, columns + 1) = axial[first_row(k) + i];
       right_[row] = -equations.residual[i];
       if (k == 0) continue;
@@ -261,6 +269,8 @@ bool PathEquations::evaluate(const PathState& state, const PathBorder& border, b
     }
     finite = finite && equations.mismatch_is_small;
   }
+  const Change by = roughly ? by_parameter_roughly(state, residual) : by_parameter(state);
+  for (int row = 0; row < columns; ++row) system_(row_of(row), columns) = by[row];
   return finite && right_.allFinite() && system_.factorise();
 }
 
@@ -275,7 +285,7 @@ std::optional<PathEquations::Linear> PathEquations::correct(PathState& state, co
   shooting_.forget_work();
   for (int iteration = 0; iteration < most_path_newton_steps; ++iteration) {
     arcs_marched_ += rod().arc_count();
-    if (!evaluate(state, border, true)) return std::nullopt;
+    if (!evaluate(state, border, tolerance >= rough_tolerance)) return std::nullopt;
     system_.substitute(right_);
     const Change step = projected(without_borders(right_));
     double turn = 0;

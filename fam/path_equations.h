@@ -139,19 +139,16 @@ class PathEquations {
   bool tendon_collapsed() const { return rod().tendon_collapsed(); }
 
  private:
-  using Placed = std::vector<Arc>;
-
-  double largest_swing_rad(const PathState& state);
-  bool evaluate(const PathState& state, const PathBorder& border, bool with_parameter);
+  double largest_swing_rad(const std::vector<SectionState<3>>& distal) const;
+  bool evaluate(const PathState& state, const PathBorder& border, bool roughly);
   void add_border(const PathBorder& border);
   Change residual_at(const PathState& state, double parameter);
   Change by_parameter(const PathState& state);
+  Change by_parameter_roughly(const PathState& state, const Change& residual);
   Change by_axial_moment(const PathState& state);
   bool residual(Change& result, bool& small) const;
   int row_of(int row) const;
   Change without_borders(const Eigen::VectorXd& solution) const;
-  static std::vector<Vector3d> place(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
-                                     const std::vector<SectionState<3>>& nodes, Placed& arcs);
 
   Settings settings_;
   PathLoads loads_;
@@ -166,7 +163,6 @@ class PathEquations {
   int path_row_ = 0;
   bool odd_borders_ = false;
   Eigen::VectorXd right_;
-  Change parameter_column_;
   long long arcs_marched_ = 0;
 };
 

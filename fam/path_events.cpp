@@ -86,7 +86,7 @@ bool PathWalk::hold_on_more_arcs(PathPlace& from, const std::vector<Event>& even
   const double allowed = stepper_.parameter_tolerance(coarse.front().place.state.parameter);
   located_to_ = std::max(located_to, 0.01 * allowed / stepper_.unit());
   bool hold = !refined;
-  if (const auto next = refined ? stepper_.step(finer, length_, curvature_) : std::nullopt) {
+  if (auto next = refined ? stepper_.step(finer, length_, curvature_) : std::nullopt; next && stepper_.judge(*next)) {
     if (auto found = events_between(finer, *next)) {
       const std::vector<Event> fine = critical(*found);
       hold = fine.size() == coarse.size();
@@ -193,8 +193,8 @@ std::optional<PathWalk::Event> PathWalk::located(const PathPlace& from, const Pa
     double ahead = std::clamp(share, 0.0, 1.0) * length;
     const double size = std::clamp(std::abs(low.state.parameter) / stepper_.unit(), 1e-4, 1.0);
     const PathChange curvature = (high.tangent - low.tangent) / length;
-    std::optional<PathPlace> at = stepper_.step(low, ahead, curvature, PathStepper::Newton::trial);
-    if (!at) at = stepper_.step(low, ahead = length / 2, curvature, PathStepper::Newton::trial);
+    std::optional<PathPlace> at = stepper_.step(low, ahead, curvature, PathStepper::Newton::tight);
+    if (!at) at = stepper_.step(low, ahead = length / 2, curvature, PathStepper::Newton::tight);
     if (!at) return std::nullopt;
     const double f = test(*at);
     const double near = located_to_ * size,
@@ -232,6 +232,7 @@ PathWalk::Event PathWalk::crossing(const PathPlace& from, const Event& near) {
     const auto at = stepper_.step(from, near.length + offsets[i] * apart, curvature_, PathStepper::Newton::tight);
     if (!at) return {-1, from, Kind::branch};
     places[i] = *at;
+    places[i].tip_position_B_mm = stepper_.equations().positions_mm(at->state).back();
     slopes[i] = at->slope();
   }
   const auto share = [](const auto& nodes, std::size_t i, double x) {  // Lagrange's
@@ -247,6 +248,7 @@ PathWalk::Event PathWalk::crossing(const PathPlace& from, const Event& near) {
   event.is_arrival = true;
   PathPlace& place = event.place;
   place.index = near.place.index;
+  place.accuracy = near.place.accuracy;
   place.state.parameter = 0;
   place.tip_position_B_mm.setZero();
   for (SectionState<3>& node : place.state.nodes) node = {Matrix3d::Zero(), {}};

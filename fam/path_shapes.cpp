@@ -23,19 +23,33 @@ int carried_end(int end_arc, std::span<const int> from, std::span<const int> to)
   return result;
 }
 
-// The states at the arcs' distal ends, without the point loads there, from those at the ends of these segments.
-std::vector<SectionState<3>> states_at_ends(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
-                                            const std::vector<SectionState<3>>& nodes) {
-  std::vector<SectionState<3>> ends(static_cast<std::size_t>(rod.arc_count()));
+// A march of all segments: positions of the arcs' ends, the states at their distal ends, without the point loads there,
+// and those that the segments' marches arrive with.
+struct Marched {
+  std::vector<Vector3d> positions_B_mm;
+  std::vector<SectionState<3>> distal, arrived;
+};
+
+Marched marched(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
+                const std::vector<SectionState<3>>& nodes) {
+  const auto arcs = static_cast<std::size_t>(rod.arc_count());
+  Marched result{{Vector3d::Zero()}, std::vector<SectionState<3>>(arcs), nodes};
+  std::vector<RigidMotion> motions(arcs);
   for (std::size_t k = segments.size(); k-- > 0;) {
     const ArcRange& range = segments[k];
-    SectionState<3> at = nodes[k];
-    ends[static_cast<std::size_t>(range.end_arc - 1)] = at;
-    rod.march(range, at, [&](int arc, const auto&, const auto&, const SectionState<3>& arrived) {
-      if (arc > range.first_arc) ends[static_cast<std::size_t>(arc - 1)] = arrived;
-    });
+    result.distal[static_cast<std::size_t>(range.end_arc - 1)] = nodes[k];
+    rod.march(range, result.arrived[k],
+              [&](int arc, const auto&, const RigidMotion& motion, const SectionState<3>& state) {
+                motions[static_cast<std::size_t>(arc)] = motion;
+                if (arc > range.first_arc) result.distal[static_cast<std::size_t>(arc - 1)] = state;
+              });
   }
-  return ends;
+  SectionPose pose;
+  for (const RigidMotion& motion : motions) {
+    pose = pose.then(motion);
+    result.positions_B_mm.push_back(pose.position_B_mm);
+  }
+  return result;
 }
 
 }  // namespace
@@ -47,7 +61,7 @@ PathState PathEquations::carried_over(const PathState& state, const PathMesh& fr
     segment = {carried_end(segment.first_arc, from_mesh.arcs, mesh_.arcs),
                carried_end(segment.end_arc, from_mesh.arcs, mesh_.arcs)};
   }
-  const std::vector<SectionState<3>> ends = states_at_ends(rod(), segments, state.nodes);
+  const std::vector<SectionState<3>> ends = marched(rod(), segments, state.nodes).distal;
   PathState result{{}, state.parameter};
   for (const ArcRange& segment : mesh_.segments) {
     result.nodes.push_back(ends[static_cast<std::size_t>(segment.end_arc - 1)]);
@@ -56,7 +70,7 @@ PathState PathEquations::carried_over(const PathState& state, const PathMesh& fr
 }
 
 std::vector<SectionState<3>> PathEquations::states(const PathState& state) {
-  return states_at_ends(rod(), mesh_.segments, state.nodes);
+  return marched(rod(), mesh_.segments, state.nodes).distal;
 }
 
 std::vector<Vector3d> PathEquations::centreline_mm(const PathState& state, int finer_times) {
@@ -67,18 +81,17 @@ std::vector<Vector3d> PathEquations::centreline_mm(const PathState& state, int f
   for (ArcRange& segment : segments) segment = {finer_times * segment.first_arc, finer_times * segment.end_arc};
   LoadedRod<3> finer;
   finer.set(rod().way(), arcs, rod().law(), rod().model());
-  Placed placed;
-  return place(finer, segments, state.nodes, placed);
+  return marched(finer, segments, state.nodes).positions_B_mm;
 }
 
 scene::Equilibrium PathEquations::equilibrium(const PathState& state, const scene::Scene& scene) {
   set_parameter(state.parameter);
   const auto count = static_cast<std::size_t>(rod().arc_count());
-  Placed arcs(count);
+  std::vector<Arc> arcs(count);
   std::vector<RigidMotion> motions(count);
   std::vector<SectionWrench> distal_wrenches_S(count);
   struct {
-    Placed& arcs;
+    std::vector<Arc>& arcs;
     std::vector<RigidMotion>& motions;
     std::vector<SectionWrench>& wrenches_S;
     void meet(int arc, const SectionState<3>& at) const { wrenches_S[static_cast<std::size_t>(arc)] = at.wrench; }
@@ -101,36 +114,14 @@ scene::Equilibrium PathEquations::equilibrium(const PathState& state, const scen
   return result;
 }
 
-std::vector<Vector3d> PathEquations::place(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
-                                           const std::vector<SectionState<3>>& nodes, Placed& arcs) {
-  std::vector<RigidMotion> motions(static_cast<std::size_t>(rod.arc_count()));
-  arcs.resize(motions.size());
-  for (std::size_t k = segments.size(); k-- > 0;) {
-    SectionState<3> state = nodes[k];
-    rod.march(segments[k], state, [&](int arc, const Screw& screw, const RigidMotion& motion, const auto&) {
-      arcs[static_cast<std::size_t>(arc)].screw = screw;
-      motions[static_cast<std::size_t>(arc)] = motion;
-    });
-  }
-  std::vector<Vector3d> positions{Vector3d::Zero()};
-  SectionPose pose;
-  for (const RigidMotion& motion : motions) {
-    pose = pose.then(motion);
-    positions.push_back(pose.position_B_mm);
-  }
-  return positions;
-}
-
 std::vector<Vector3d> PathEquations::positions_mm(const PathState& state) {
-  Placed arcs;
-  return place(rod(), mesh_.segments, state.nodes, arcs);
+  return marched(rod(), mesh_.segments, state.nodes).positions_B_mm;
 }
 
 // By the moments at the arcs' ends: those that a screw tells of are too large by what the law adds to the curvature,
 // h^2/12 of its third power, times the largest stiffness; strips 1e10 times stiffer on edge took 4096 arcs for 16.
-double PathEquations::largest_swing_rad(const PathState& state) {
-  const std::vector<SectionState<3>> ends = states(state);
-  auto end = ends.begin();
+double PathEquations::largest_swing_rad(const std::vector<SectionState<3>>& distal) const {
+  auto end = distal.begin();
   double largest = 0;
   for (std::size_t i = 0; i < spans_.size(); ++i) {
     const double length_mm = spans_[i].length_mm() / mesh_.arcs[i];
@@ -140,31 +131,30 @@ double PathEquations::largest_swing_rad(const PathState& state) {
   return largest;
 }
 
-// One Newton step, with the factors at hand, towards the solution with twice the arcs.
+// One Newton step, with the factors at hand, towards the solution with twice the arcs; what it does to the positions is
+// told by the arcs as they are.
 PathEquations::Accuracy PathEquations::accuracy(const PathState& state) {
-  Placed arcs, fine_arcs;
-  const std::vector<Vector3d> here = place(rod(), mesh_.segments, state.nodes, arcs);
   std::vector<ArcRange> segments = mesh_.segments;
   for (ArcRange& segment : segments) segment = {2 * segment.first_arc, 2 * segment.end_arc};
   fine_.set_load(1);
+  const Marched here = marched(rod(), mesh_.segments, state.nodes), fine = marched(fine_, segments, state.nodes);
   right_ = Eigen::VectorXd::Zero(system_.size());
   for (std::size_t k = 0; k < segments.size(); ++k) {
-    SectionState<3> arrived = state.nodes[k];
-    fine_.march(segments[k], arrived);
-    const auto equations = shooting_.residual(k, arrived);
+    const auto equations = shooting_.residual(k, fine.arrived[k]);
     for (int i = 0; i < row_count(k); ++i) right_[row_of(first_row(k) + i)] = -equations.residual[i];
   }
   system_.substitute(right_);
   const PathState finer = moved(state, projected(without_borders(right_)));
   set_parameter(finer.parameter);
-  fine_.set_load(1);
-  const std::vector<Vector3d> there = place(fine_, segments, finer.nodes, fine_arcs);
+  const std::vector<Vector3d> there = positions_mm(finer);
   set_parameter(state.parameter);
   Accuracy result;
-  result.tip_position_B_mm = here.back();
-  for (std::size_t k = 0; k < here.size(); ++k)
-    result.error_mm = std::max(result.error_mm, (here[k] - there[2 * k]).norm());
-  result.swing_rad = largest_swing_rad(state);
+  result.tip_position_B_mm = here.positions_B_mm.back();
+  for (std::size_t k = 0; k < there.size(); ++k) {
+    const Vector3d of_arcs = fine.positions_B_mm[2 * k] - here.positions_B_mm[k];
+    result.error_mm = std::max(result.error_mm, (of_arcs + there[k] - here.positions_B_mm[k]).norm());
+  }
+  result.swing_rad = largest_swing_rad(here.distal);
   return result;
 }
 

@@ -127,7 +127,8 @@ std::optional<PathPlace> PathStepper::start(double parameter, bool upwards) {
     }
     guess.nodes.back().wrench = {};
     equations_.hold(is_held_by(guess, symmetry_) ? symmetry_ : Symmetry::none);
-    std::optional<PathPlace> place = corrected(guess, {0, Vector3d::Zero(), upwards ? 1.0 : -1.0}, Newton::usual);
+    std::optional<PathPlace> place =
+        judged(corrected(guess, {0, Vector3d::Zero(), upwards ? 1.0 : -1.0}, Newton::usual));
     if (place && (options_.arcs > 0 || is_accurate(*place))) return place;
     if (options_.arcs > 0) break;
     for (int& count : mesh.arcs) count *= 2;
@@ -149,7 +150,11 @@ std::optional<PathPlace> PathStepper::corrected(PathState guess, const PathBorde
   place.determinant = linear->determinant;
   place.surprise_rad = linear->first_step_rad;
   if (is_round_ && !place.is_free) place.cross = cross_turn(equations_.rod(), equations_.segments(), place.state.nodes);
-  if (newton != Newton::trial && !judge(place)) return std::nullopt;
+  return place;
+}
+
+std::optional<PathPlace> PathStepper::judged(std::optional<PathPlace> place) {
+  if (!place || !judge(*place)) return std::nullopt;
   return place;
 }
 
@@ -173,7 +178,7 @@ std::optional<PathPlace> PathStepper::at(const PathPlace& near, double parameter
   if (slope == 0) return std::nullopt;
   PathState guess = equations_.moved(near.state, near.tangent, (parameter - near.state.parameter) / slope);
   guess.parameter = parameter;
-  auto place = corrected(guess, {0, Vector3d::Zero(), slope > 0 ? 1.0 : -1.0}, Newton::tight);
+  auto place = judged(corrected(guess, {0, Vector3d::Zero(), slope > 0 ? 1.0 : -1.0}, Newton::tight));
   if (place) place->state.parameter = parameter;
   return place;
 }
@@ -237,7 +242,7 @@ bool PathStepper::change_mesh(PathPlace& place, const PathMesh& mesh) {
     tangent.segment<3>(static_cast<Eigen::Index>(9 * k)) = rotation_vector(turn) / ahead;
   }
   tangent[tangent.size() - 1] = place.slope();
-  auto corrected_place = corrected(here, equations_.row_across(tangent), Newton::usual);
+  auto corrected_place = judged(corrected(here, equations_.row_across(tangent), Newton::usual));
   if (!corrected_place) return false;
   place = std::move(*corrected_place);
   return true;

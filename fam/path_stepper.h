@@ -53,8 +53,9 @@ class PathStepper {
   double tolerance_mm() const { return tolerance_mm_; }
   double inner(const PathChange& a, const PathChange& b) const { return equations_.inner(a, b); }
 
-  enum class Newton { usual, tight, trial };  // a trial is as tight, and not judged
-  // Along the tangent and half the curvature times the length squared. Empty: Newton's method did not converge.
+  enum class Newton { usual, tight };
+  // Along the tangent and half the curvature times the length squared; not judged. Empty: Newton's method did not
+  // converge.
   std::optional<PathPlace> step(const PathPlace& from, double length, const PathChange& curvature,
                                 Newton newton = Newton::usual);
   // Tells index, accuracy and tip of the place found last. False: its shape is not finite.
@@ -91,6 +92,7 @@ class PathStepper {
 
  private:
   std::optional<PathPlace> corrected(PathState guess, const PathBorder::Row& row, Newton newton);
+  std::optional<PathPlace> judged(std::optional<PathPlace> place);
   bool change_mesh(PathPlace& place, const PathMesh& mesh);
   PathMesh mesh_about(double parameter);
   void set_symmetry(const scene::PathRequest& request);

@@ -155,7 +155,7 @@ std::optional<PathPlace> PathWalk::take_step(PathPlace& from) {
     length_ = std::min(length_, watched_length(from));
     std::optional<PathPlace> next = stepper_.step(from, length_, curvature_);
     if (!next) tendon_collapsed_ = tendon_collapsed_ || stepper_.tendon_collapsed();
-    if (!next || !is_fit(from, *next)) continue;
+    if (!next || !is_fit(from, *next) || !stepper_.judge(*next)) continue;
     if (length_ > no_struggle) tendon_collapsed_ = false;
     if (!settings_.range.is_watched && !stepper_.is_small_change(from.state.parameter, next->state.parameter)) continue;
     if (stepper_.is_accurate(*next) || from.is_fork) return next;
