@@ -18,6 +18,14 @@ struct StabilityCell {
   int cells;  // arcs or elements; 0: automatic
   Judgement judgement;
   std::string status, message;  // of the method
+  std::optional<bool> stable;   // as the method says
+};
+
+// Of a map's scene whose loads have an energy: the unstable directions of the exact equilibrium; empty: it is neutral.
+struct ExactIndex {
+  std::string map;
+  double x, y;
+  std::optional<int> falling;
 };
 
 // How far the exact reference and what checks it lie apart, over L, in the worst cell of a map.
@@ -44,12 +52,15 @@ struct StabilityData {
   std::vector<std::string> methods;
   std::vector<StabilityCell> cells;
   std::vector<ReferenceCheck> checks;
+  std::vector<ExactIndex> indices;
   std::vector<Sensitivity> sensitivities;
   std::vector<BreakingScene> breaking;
 
   // Null where the method was not asked.
   const StabilityCell* find(const std::string& map, const std::string& method, double x, double y) const;
   std::vector<const StabilityCell*> find_all(const std::string& map, const std::string& method) const;
+  // Null where there is none; of maps that say how many arcs y is not looked at.
+  const ExactIndex* index_at(const StabilityMap& map, double x, double y) const;
   const StabilityMap& map_named(const std::string& name) const;
   int count(const std::string& method, const std::function<bool(Verdict)>& is) const;
 };
@@ -78,6 +89,10 @@ std::string error_over_arcs(const StabilityData& data, const std::string& method
 bool exact_for_circles(const StabilityData& data);
 bool straight_stays_straight(const StabilityData& data);
 
+// "139 of 139": right answers that say whether they are stable, and how many of them say so as the exact index does.
+std::string stable_as_exact(const StabilityData& data);
+// "direction 10": the maps' scenes whose exact answer is unstable.
+std::string unstable_by_map(const StabilityData& data);
 std::string where_each_fails(const StabilityData& data);  // one line: wrong and silent, of solves, by method
 std::string silent_by_map(const StabilityData& data);     // one line; empty: no silent answer
 std::string stability_page(const StabilityData& data, const std::filesystem::path& page_md);

@@ -93,6 +93,29 @@ std::string silent_by_map(const StabilityData& data) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+std::string stable_as_exact(const StabilityData& data) {
+  int asked = 0, same = 0;
+  for (const StabilityCell& cell : data.cells) {
+    const ExactIndex* index = data.index_at(data.map_named(cell.map), cell.x, cell.y);
+    if (cell.method == "exact" || !is_right(cell.judgement.verdict) || !cell.stable || !index || !index->falling)
+      continue;
+    ++asked;
+    same += *cell.stable == (*index->falling == 0);
+  }
+  return fmt::format("{} of {}", same, asked);
+}
+
+std::string unstable_by_map(const StabilityData& data) {
+  std::vector<std::string> parts;
+  for (const StabilityMap& map : data.maps) {
+    const auto unstable = std::count_if(data.indices.begin(), data.indices.end(), [&](const ExactIndex& i) {
+      return i.map == map.name && i.falling.value_or(0) > 0;
+    });
+    if (unstable > 0) parts.push_back(fmt::format("{} {}", map.name, unstable));
+  }
+  return parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "));
+}
+
 std::string stability_page(const StabilityData& data, const std::filesystem::path& page_md) {
   Page page;
   page.set("where", where_each_fails(data));
@@ -100,6 +123,9 @@ std::string stability_page(const StabilityData& data, const std::filesystem::pat
   page.set("silent_methods", silent_methods(data));
   page.set("silent_by_map", silent_by_map(data));
   page.check("any_silent", !silent_by_map(data).empty());
+  page.set("with_energy", std::to_string(data.indices.size()));
+  page.set("unstable_by_map", unstable_by_map(data));
+  page.set("stable_as_exact", stable_as_exact(data));
   page.set("load_steps", std::to_string(most_load_steps));
   page.set("largest_fe_load", axis_text(contender("fem linear").largest_x));
   page.set("failures", failures_table(data));

@@ -107,6 +107,31 @@ void draw_method(Svg& svg, const StabilityData& data, const StabilityMap& map, c
   draw_axes(svg, map, rows, corner, map.y_is_cells && contender(method).automatic());
 }
 
+constexpr const char* index_panel = "index";  // beside those of the methods
+
+bool has_index(const StabilityData& data, const StabilityMap& map) {
+  return std::any_of(data.indices.begin(), data.indices.end(),
+                     [&](const ExactIndex& i) { return i.map == map.name && i.falling.value_or(0) > 0; });
+}
+
+void draw_index(Svg& svg, const StabilityData& data, const StabilityMap& map, Point corner) {
+  const double cell_width = cell_width_of(map);
+  svg.text({corner.x, corner.y - 8}, "Directions in which the exact answer is unstable", Anchor::start, 13);
+  double top = corner.y;
+  for (auto y = map.y.values.rbegin(); y != map.y.values.rend(); ++y, top += cell_height) {
+    for (std::size_t i = 0; i < map.x.values.size(); ++i) {
+      const ExactIndex* index = data.index_at(map, map.x.values[i], *y);
+      if (index == nullptr) continue;
+      const Point at{corner.x + cell_width * static_cast<double>(i), top};
+      const bool falls = index->falling.value_or(0) > 0;
+      svg.rectangle({at.x + 0.5, at.y + 0.5}, cell_width - 1, cell_height - 1, falls ? "#b9a3d6" : "#eef1f4");
+      svg.text({at.x + cell_width / 2, at.y + cell_height / 2 + 4},
+               index->falling ? std::to_string(*index->falling) : "n", Anchor::middle, 12, colour::black);
+    }
+  }
+  draw_axes(svg, map, map.y.values, corner, false);
+}
+
 bool refuses(const StabilityData& data, const StabilityMap& map, const std::string& method) {
   const auto cells = data.find_all(map.name, method);
   return std::all_of(cells.begin(), cells.end(),
@@ -153,11 +178,13 @@ std::string told(const StabilityData& data, const StabilityMap& map) {
 }
 
 std::string picture(const StabilityData& data, const StabilityMap& map) {
-  const std::vector<std::string> methods = panels_of(data, map);
+  std::vector<std::string> panels = panels_of(data, map);
+  if (has_index(data, map)) panels.push_back(index_panel);
   std::vector<double> row_heights;
-  for (std::size_t i = 0; i < methods.size(); ++i) {
+  for (std::size_t i = 0; i < panels.size(); ++i) {
     if (i % columns == 0) row_heights.push_back(0);
-    const double cells = cell_height * static_cast<double>(rows_of(data, map, methods[i]).size());
+    const std::size_t rows = panels[i] == index_panel ? map.y.values.size() : rows_of(data, map, panels[i]).size();
+    const double cells = cell_height * static_cast<double>(rows);
     row_heights.back() = std::max(row_heights.back(), above_panel + cells + below_panel);
   }
   double height = head;
@@ -167,9 +194,10 @@ std::string picture(const StabilityData& data, const StabilityMap& map) {
   if (const std::string names = refusing(data, map); !names.empty())
     svg.text({width - 20, 24}, "refused by " + names, Anchor::end, 12, colour::grey);
   double top = head;
-  for (std::size_t i = 0; i < methods.size(); ++i) {
-    const double x = 8 + left + panel_width * static_cast<double>(i % columns);
-    draw_method(svg, data, map, methods[i], {x, top + above_panel - 10});
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const Point corner{8 + left + panel_width * static_cast<double>(i % columns), top + above_panel - 10};
+    if (panels[i] == index_panel) draw_index(svg, data, map, corner);
+    else draw_method(svg, data, map, panels[i], corner);
     if (i % columns == columns - 1) top += row_heights[i / columns];
   }
   return svg.str();

@@ -5,6 +5,7 @@
 #include "exact_reference/solve.h"
 #include "fam/solve.h"
 #include "scene/scene_file.h"
+#include "scene/span_facts.h"
 #include "studies/report/output_file.h"
 #include "studies/report/provenance.h"
 #include "studies/stability/data.h"
@@ -94,7 +95,10 @@ class Stability {
       Truth truth;
       for (const double y : map.y.values) {
         // With the resolution on the y axis the scene is the same in the whole column.
-        if (!map.y_is_cells || y == map.y.values.front()) truth = checked_truth(map, x, y, check);
+        if (!map.y_is_cells || y == map.y.values.front()) {
+          truth = checked_truth(map, x, y, check);
+          add_index(map, x, y, truth.tip);
+        }
         for (const Contender& contender : contenders()) ask(map, contender, x, y, truth.tip);
       }
     }
@@ -115,6 +119,15 @@ class Stability {
     return truth;
   }
 
+  void add_index(const StabilityMap& map, double x, double y, const scene::Equilibrium& truth) {
+    if (!truth.converged() || !scene::is_conservative(scene::spans_of(map.scene(x, y)))) return;
+    ExactIndex index{map.name, x, y, std::nullopt};
+    for (const auto& [name, value] : truth.model) {
+      if (name == "falling_directions") index.falling = std::get<int>(value);
+    }
+    data_.indices.push_back(index);
+  }
+
   void ask(const StabilityMap& map, const Contender& contender, double x, double y, const scene::Equilibrium& truth) {
     const int cells = contender.automatic() ? 0 : map.y_is_cells ? static_cast<int>(y) : contender.fixed_cells;
     if (cells > contender.most_cells || x > contender.largest_x || !truth.converged()) return;
@@ -126,7 +139,7 @@ class Stability {
     const auto refined = [&] { return contender.solve(scene, 4 * cells); };
     const Judgement judgement = judge(answer, truth, scene::length_mm(scene), refined);
     data_.cells.push_back(
-        {map.name, contender.key, x, y, cells, judgement, scene::name(answer.status), answer.message});
+        {map.name, contender.key, x, y, cells, judgement, scene::name(answer.status), answer.message, answer.stable});
   }
 
   // The tip's direction under a fixed transverse force, turned by 1e-8 rad and marched to the clamp.

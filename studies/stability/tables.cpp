@@ -69,6 +69,16 @@ std::string judge_csv(const StabilityData& data) {
   return table.csv({"The exact reference beside what checks it."});
 }
 
+std::string index_csv(const StabilityData& data) {
+  Table table({"map", "x", "y", "index"});
+  for (const ExactIndex& i : data.indices) {
+    const bool by_cells = data.map_named(i.map).y_is_cells;
+    table.add(
+        {i.map, axis_text(i.x), by_cells ? "" : axis_text(i.y), i.falling ? std::to_string(*i.falling) : "neutral"});
+  }
+  return table.csv({"Of the scenes whose loads have an energy: how many directions the exact answer is unstable in."});
+}
+
 std::function<bool(Verdict)> one_of(Verdict verdict) {
   return [verdict](Verdict v) { return v == verdict; };
 }
@@ -88,6 +98,13 @@ std::vector<const StabilityCell*> StabilityData::find_all(const std::string& map
     if (c.map == map && c.method == method) found.push_back(&c);
   }
   return found;
+}
+
+const ExactIndex* StabilityData::index_at(const StabilityMap& map, double x, double y) const {
+  const auto found = std::find_if(indices.begin(), indices.end(), [&](const ExactIndex& i) {
+    return i.map == map.name && i.x == x && (map.y_is_cells || i.y == y);
+  });
+  return found == indices.end() ? nullptr : &*found;
 }
 
 const StabilityMap& StabilityData::map_named(const std::string& name) const {
@@ -141,6 +158,7 @@ std::string breaking_table(const StabilityData& data) {
 std::map<std::string, std::string> stability_tables(const StabilityData& data) {
   std::map<std::string, std::string> files;
   for (const StabilityMap& map : data.maps) files[map.name + ".csv"] = map_csv(data, map);
+  files["index.csv"] = index_csv(data);
   files["needed.csv"] = needed_csv(data);
   files["growth.csv"] = growth_csv(data);
   files["judge.csv"] = judge_csv(data);
