@@ -68,19 +68,19 @@ struct DualSection {
   }
 };
 
-template <int D, int N>
-void set_pair(const MotionSlopes<D>& motion, const ScrewPair& screw, int first, ArcVariation<N>& result) {
+template <class V, int D, int N>
+void set_motion(const MotionSlopes<D>& motion, const ScrewChanges<V>& screw, int first, ArcVariation<N>& result) {
   set_columns(motion.turn(screw), first, result.slopes.template topRows<3>());
   set_columns(motion.way(screw), first, result.slopes.template middleRows<3>(3));
 }
-template <int D, int N>
-void set_gain(const MotionSlopes<D>& motion, const Pair3& force, const Pair3& moment, const ArcChange<N>& change,
-              int first, ArcVariation<N>& result) {
-  const Pair3 turn = columns(result.slopes.template topRows<3>(), first);
-  const Pair3 way = columns(result.slopes.template middleRows<3>(3), first);
-  const Pair3 carried = motion.carried_force(force, turn);
-  set_columns(carried + -1.0 * columns(change.force_N, first), first, result.slopes.template middleRows<3>(6));
-  set_columns(motion.carried_moment(moment, carried, turn, way) + -1.0 * columns(change.moment_Nmm, first), first,
+template <class V, int D, int N>
+void set_gain(const MotionSlopes<D>& motion, const Changes3<V>& force, const Changes3<V>& moment,
+              const ArcChange<N>& change, int first, ArcVariation<N>& result) {
+  const Changes3<V> turn = columns<V>(result.slopes.template topRows<3>(), first);
+  const Changes3<V> way = columns<V>(result.slopes.template middleRows<3>(3), first);
+  const Changes3<V> carried = motion.carried_force(force, turn);
+  set_columns(carried + -1.0 * columns<V>(change.force_N, first), first, result.slopes.template middleRows<3>(6));
+  set_columns(motion.carried_moment(moment, carried, turn, way) + -1.0 * columns<V>(change.moment_Nmm, first), first,
               result.slopes.template bottomRows<3>());
 }
 
@@ -91,7 +91,8 @@ ArcVariation<N> vary_by_numbers(Law law, const BasicArcConstants<3>& arc, const 
   const DualSection<with_shear> section{arc, change.constant, change.tendon_arms};
   ArcVariation<N> result;
   result.slopes.setZero();
-  for (int three = 0; three < N; three += 3) {
+  for (int at = 0; at < N; at += 3) {
+    const int three = std::min(at, N - 3);
     const auto varied = [three](const Vector3d& v, const Slopes3<N>& slopes) {
       return with_slopes(v, slopes.template middleCols<3>(three));
     };
@@ -111,8 +112,8 @@ ArcVariation<N> vary_by_numbers(Law law, const BasicArcConstants<3>& arc, const 
     const Matrix3d rotation = slopes_of(screw.rotation), translation = slopes_of(screw.translation_mm);
     const Matrix3d force = slopes_of(w.force_N), moment = slopes_of(w.moment_Nmm);
     for (int first = 0; first < 3; first += 2) {
-      set_pair(motion, {columns(rotation, first), columns(translation, first)}, first, part);
-      if (forces) set_gain(motion, columns(force, first), columns(moment, first), part_change, first, part);
+      set_motion<Pair>(motion, {columns<Pair>(rotation, first), columns<Pair>(translation, first)}, first, part);
+      if (forces) set_gain(motion, columns<Pair>(force, first), columns<Pair>(moment, first), part_change, first, part);
     }
     if (!forces) part.slopes.template bottomRows<6>().setZero();
     result.slopes.template middleCols<3>(three) = part.slopes;
@@ -123,16 +124,15 @@ ArcVariation<N> vary_by_numbers(Law law, const BasicArcConstants<3>& arc, const 
   return result;
 }
 
-// `s`: the arc's series, seven terms with distributed forces.
-template <bool with_shear, std::size_t terms, int D, int N>
+// `s`: the arc's series, seven terms with distributed forces. V: changes at a time.
+template <class V, bool with_shear, std::size_t terms, int D, int N>
 ArcVariation<N> vary_by_series(const BasicArcConstants<3>& arc, const ArcForces<double, D>* forces,
                                const RodSeries<double, D, terms>& s, const SectionWrench& wrench,
                                const ArcChange<N>& change) {
-  const SeriesSlopes<with_shear, terms, D> slopes(arc, s, forces);
-  ConstantSeries<terms> constant;
-  const bool varied = change.constant != Constant::none;
+  const SeriesSlopes<V, with_shear, terms, D> slopes(arc, s, forces);
+  std::optional<ConstantSeries<terms>> constant;
   if constexpr (D == 3) {
-    if (varied) constant = slopes.constant_series(change.constant, change.tendon_arms);
+    if (change.constant != Constant::none) constant = slopes.constant_series(change.constant, change.tendon_arms);
   }
   MotionSlopes<D> motion(magnus<with_shear>(s));
   ArcVariation<N> result{motion.motion(), motion.way_mm(), {}, {}};
@@ -142,23 +142,33 @@ ArcVariation<N> vary_by_series(const BasicArcConstants<3>& arc, const ArcForces<
   } else {
     result.slopes.template bottomRows<6>().setZero();
   }
-  for (int first = 0; first < N; first += 2) {
-    const auto pair = slopes.pair(change, varied ? &constant : nullptr, first);
-    set_pair(motion, pair.screw, first, result);
-    if constexpr (terms == 7) set_gain(motion, pair.force, pair.moment, change, first, result);
+  for (int first = 0; first < N; first += width<V>) {
+    const auto by = slopes.changes(change, constant ? &*constant : nullptr, first);
+    set_motion(motion, by.screw, first, result);
+    if constexpr (terms == 7) set_gain(motion, by.force, by.moment, change, first, result);
   }
   return result;
 }
 
+template <bool with_shear, std::size_t terms, int D, int N>
+ArcVariation<N> vary_on(VectorUnit unit, const BasicArcConstants<3>& arc, const ArcForces<double, D>* forces,
+                        const RodSeries<double, D, terms>& s, const SectionWrench& wrench, const ArcChange<N>& change) {
+#ifdef FAM_HAS_AVX2_UNIT
+  if (unit == VectorUnit::avx2)
+    return call_by_avx2([&] { return vary_by_series<Quad, with_shear>(arc, forces, s, wrench, change); });
+#endif
+  return vary_by_series<Pair, with_shear>(arc, forces, s, wrench, change);
+}
+
 template <bool with_shear, int N>
 ArcVariation<N> vary(Law law, const BasicArcConstants<3>& arc, const ArcForces<double, 3>* forces,
-                     const SectionWrench& wrench, const ArcChange<N>& change) {
+                     const SectionWrench& wrench, const ArcChange<N>& change, VectorUnit unit) {
   if (law != Law::sixth_order) return vary_by_numbers<with_shear>(law, arc, forces, wrench, change);
   const auto by_series = [&]<std::size_t terms>() {
-    return vary_by_series<with_shear>(arc, forces, series_of<with_shear, terms>(arc, forces, wrench), wrench, change);
+    return vary_on<with_shear>(unit, arc, forces, series_of<with_shear, terms>(arc, forces, wrench), wrench, change);
   };
-  if (N == 9 || (N == 3 && forces)) return by_series.template operator() < N == 6 ? 6 : 7 > ();
-  return by_series.template operator() < N == 9 ? 7 : 6 > ();
+  if constexpr (N == 3) return forces ? by_series.template operator()<7>() : by_series.template operator()<6>();
+  else return by_series.template operator() < N == 6 ? 6 : 7 > ();
 }
 
 // Of an arc in the x-y plane the changes that stay in it (turns and moments about z, ways and forces along x and y) and
@@ -199,14 +209,14 @@ BasicArcConstants<2> in_plane(const BasicArcConstants<3>& arc) {
 
 template <bool with_shear, int N>
 ArcVariation<N> vary_planar(const BasicArcConstants<3>& arc, const ArcForces<double, 3>* forces,
-                            const SectionWrench& wrench) {
+                            const SectionWrench& wrench, VectorUnit unit) {
   constexpr std::size_t terms = N == 9 ? 7 : 6;
   ArcForces<double, 2> along;
   if (forces) along = {linear_part<2>(forces->follower_S_N), linear_part<2>(forces->fixed_D_N)};
   const ArcForces<double, 2>* planar_forces = forces ? &along : nullptr;
   const BasicWrench<double, 2> planar_wrench{linear_part<2>(wrench.force_N), angular_part<2>(wrench.moment_Nmm)};
-  const ArcVariation<N - 3> together = vary_by_series<with_shear>(
-      arc, planar_forces, series_of<with_shear, terms>(in_plane(arc), planar_forces, planar_wrench), wrench,
+  const ArcVariation<N - 3> together = vary_on<with_shear>(
+      unit, arc, planar_forces, series_of<with_shear, terms>(in_plane(arc), planar_forces, planar_wrench), wrench,
       changes_together<N - 3>());
   ArcVariation<N> result{together.motion, together.way_D_mm, together.gain_D, {}};
   for (int row = 0; row < 12; row += 3) {
@@ -246,9 +256,9 @@ StrainVariation vary_section(const BasicArcConstants<3>& arc, const SectionWrenc
 template <int N>
 ArcVariation<N> vary_arc(Law law, scene::RodModel model, const BasicArcConstants<3>& arc,
                          const ArcForces<double, 3>* distributed, const SectionWrench& wrench,
-                         const ArcChange<N>& change) {
-  if (model == scene::RodModel::reissner) return vary<true, N>(law, arc, distributed, wrench, change);
-  return vary<false, N>(law, arc, distributed, wrench, change);
+                         const ArcChange<N>& change, VectorUnit unit) {
+  if (model == scene::RodModel::reissner) return vary<true, N>(law, arc, distributed, wrench, change, unit);
+  return vary<false, N>(law, arc, distributed, wrench, change, unit);
 }
 
 StrainVariation vary_strain(scene::RodModel model, const BasicArcConstants<3>& arc, const SectionWrench& wrench,
@@ -259,20 +269,22 @@ StrainVariation vary_strain(scene::RodModel model, const BasicArcConstants<3>& a
 
 template <int N>
 ArcVariation<N> vary_planar_arc(scene::RodModel model, const BasicArcConstants<3>& arc,
-                                const ArcForces<double, 3>* distributed, const SectionWrench& wrench) {
-  if (model == scene::RodModel::reissner) return vary_planar<true, N>(arc, distributed, wrench);
-  return vary_planar<false, N>(arc, distributed, wrench);
+                                const ArcForces<double, 3>* distributed, const SectionWrench& wrench, VectorUnit unit) {
+  if (model == scene::RodModel::reissner) return vary_planar<true, N>(arc, distributed, wrench, unit);
+  return vary_planar<false, N>(arc, distributed, wrench, unit);
 }
 
 template ArcVariation<3> vary_arc(Law, scene::RodModel, const BasicArcConstants<3>&, const ArcForces<double, 3>*,
-                                  const SectionWrench&, const ArcChange<3>&);
+                                  const SectionWrench&, const ArcChange<3>&, VectorUnit);
 template ArcVariation<6> vary_arc(Law, scene::RodModel, const BasicArcConstants<3>&, const ArcForces<double, 3>*,
-                                  const SectionWrench&, const ArcChange<6>&);
+                                  const SectionWrench&, const ArcChange<6>&, VectorUnit);
+template ArcVariation<8> vary_arc(Law, scene::RodModel, const BasicArcConstants<3>&, const ArcForces<double, 3>*,
+                                  const SectionWrench&, const ArcChange<8>&, VectorUnit);
 template ArcVariation<9> vary_arc(Law, scene::RodModel, const BasicArcConstants<3>&, const ArcForces<double, 3>*,
-                                  const SectionWrench&, const ArcChange<9>&);
+                                  const SectionWrench&, const ArcChange<9>&, VectorUnit);
 template ArcVariation<6> vary_planar_arc(scene::RodModel, const BasicArcConstants<3>&, const ArcForces<double, 3>*,
-                                         const SectionWrench&);
+                                         const SectionWrench&, VectorUnit);
 template ArcVariation<9> vary_planar_arc(scene::RodModel, const BasicArcConstants<3>&, const ArcForces<double, 3>*,
-                                         const SectionWrench&);
+                                         const SectionWrench&, VectorUnit);
 
 }  // namespace fam

@@ -5,6 +5,7 @@
 #include "fam/arc_section.h"
 #include "fam/arc_step.h"
 #include "fam/law.h"
+#include "fam/vector_unit.h"
 
 #include "scene/rod_model.h"
 
@@ -30,7 +31,7 @@ struct ArcChange {
   TendonArms tendon_arms{};
 };
 
-// One of each component of the wrench, six; N = 9: and of a fixed distributed force.
+// One of each component of the wrench, six; N = 9: and of a fixed distributed force. N = 8: room for two of that.
 template <int N>
 const ArcChange<N>& unit_changes() {
   static const ArcChange<N> changes = [] {
@@ -55,17 +56,18 @@ struct ArcVariation {
   Eigen::Matrix<double, 12, N> slopes;
 };
 
-// `distributed`: null without such forces. N: 3; 6 without and 9 with them.
+// `distributed`: null without such forces. N: 3; 6 without, 8 and 9 with them.
 template <int N>
 ArcVariation<N> vary_arc(Law law, scene::RodModel model, const BasicArcConstants<3>& arc,
                          const ArcForces<double, 3>* distributed, const SectionWrench& wrench,
-                         const ArcChange<N>& change);
+                         const ArcChange<N>& change, VectorUnit unit = widest_unit());
 
 // By the unit changes, for an arc in the x-y plane by the law of sixth order; the section, in space, has no tendons and
 // principal axes along the plane.
 template <int N>
 ArcVariation<N> vary_planar_arc(scene::RodModel model, const BasicArcConstants<3>& arc,
-                                const ArcForces<double, 3>* distributed, const SectionWrench& wrench);
+                                const ArcForces<double, 3>* distributed, const SectionWrench& wrench,
+                                VectorUnit unit = widest_unit());
 
 // The section's strain (times h) under a wrench and the tendons' pulls; slopes of (u, v) h and of the pulls' force and
 // moment.

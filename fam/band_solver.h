@@ -1,6 +1,8 @@
 // Gaussian elimination with row pivoting for the band matrices of multiple shooting, in memory that the caller keeps.
 #pragma once
 
+#include "fam/vector_unit.h"
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -36,6 +38,15 @@ class BandSystem {
 
   // Replaces the matrix by its factors. False: a pivot is 0 or not finite.
   bool factorise() {
+    return call_on(widest_unit(), [this] { return factorise_here(); });
+  }
+  // With the factors: replaces the right-hand side by the solution.
+  void substitute() {
+    call_on(widest_unit(), [this] { substitute_here(); });
+  }
+
+ private:
+  bool factorise_here() {
     negative_ = false;
     log_determinant_ = 0;
     for (int k = 0; k < size_; ++k) {
@@ -64,8 +75,7 @@ class BandSystem {
     return true;
   }
 
-  // With the factors: replaces the right-hand side by the solution.
-  void substitute() {
+  void substitute_here() {
     double* const right = right_.data();
     for (int k = 0; k < size_; ++k) {
       std::swap(right[k], right[pivots_[static_cast<std::size_t>(k)]]);
@@ -79,7 +89,6 @@ class BandSystem {
     }
   }
 
- private:
   using Row = Eigen::Array<double, 2 * below + above + 1, 1>;  // from the lowest diagonal up, and what pivoting fills
   int size_ = 0;
   bool negative_ = false;

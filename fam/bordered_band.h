@@ -4,6 +4,8 @@
 // matrix, also where the band by itself is singular, as at a fold; which the block elimination of such borders is not.
 #pragma once
 
+#include "fam/vector_unit.h"
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -40,6 +42,15 @@ class BorderedBand {
   // Replaces the matrix by its factors. A pivot below round-off becomes round-off: the matrix then has a null vector
   // that solutions grow along. False: something is not finite.
   bool factorise() {
+    return call_on(widest_unit(), [this] { return factorise_here(); });
+  }
+  // With the factors: replaces the right-hand side by the solution.
+  void substitute(Eigen::VectorXd& right) {
+    call_on(widest_unit(), [&] { substitute_here(right); });
+  }
+
+ private:
+  bool factorise_here() {
     negative_ = false;
     log_determinant_ = 0;
     double largest = 0;
@@ -66,20 +77,22 @@ class BorderedBand {
     return true;
   }
 
-  // With the factors: replaces the right-hand side by the solution.
-  void substitute(Eigen::VectorXd& right) {
+  void substitute_here(Eigen::VectorXd& right) {
     for (int k = 0; k < size_; ++k) {
       std::swap(right[k], right[pivots_[static_cast<std::size_t>(k)]]);
       const int last_row = std::min(k + below, size_ - 1);
       for (int i = k + 1; i <= last_row; ++i) right[i] -= (*this)(i, k) * right[k];
     }
     for (int k = size_ - 1; k >= 0; --k) {
-      for (int j = k + 1; j < size_; j = next_column(k, j)) right[k] -= (*this)(k, j) * right[j];
+      if (k < columns_) {
+        const int count = band_end(k) - k - 1;
+        right[k] -= Eigen::Map<const Eigen::VectorXd>(&(*this)(k, k) + 1, count).dot(right.segment(k + 1, count));
+      }
+      for (int j = std::max(k + 1, columns_); j < size_; ++j) right[k] -= (*this)(k, j) * right[j];
       right[k] /= (*this)(k, k);
     }
   }
 
- private:
   static constexpr int below = band_below + most_borders, above = band_above;
   static constexpr int width = 2 * below + above + 1;  // pivoting fills `below` more diagonals
   using Band = Eigen::Array<double, width, 1>;         // from the lowest diagonal up
@@ -91,7 +104,6 @@ class BorderedBand {
 
   // The first column that row k no longer holds in its band.
   int band_end(int k) const { return std::min(k + below + above + 1, columns_); }
-  int next_column(int k, int j) const { return j + 1 == band_end(k) ? columns_ : j + 1; }
 
   void swap(int k, int pivot) {
     for (int j = k; j < band_end(k); ++j) std::swap((*this)(k, j), (*this)(pivot, j));

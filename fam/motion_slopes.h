@@ -1,7 +1,7 @@
 // How an arc's motion, the exponential of its screw, varies with the screw, and the wrench that it carries with it.
 #pragma once
 
-#include "fam/change_pair.h"
+#include "fam/changes.h"
 #include "fam/dual.h"
 #include "fam/embedding.h"
 
@@ -26,12 +26,14 @@ class MotionSlopes {
   RigidMotion motion() const { return {embedded_angular(w_), embedded(motion_.position_mm), motion_.A, motion_.B}; }
   Vector3d way_mm() const { return embedded(way_); }
 
-  Pair3 turn(const ScrewPair& screw) const {
-    const Pair3 turned = cross(w_, screw.rotation);
+  template <class V>
+  Changes3<V> turn(const ScrewChanges<V>& screw) const {
+    const Changes3<V> turned = cross(w_, screw.rotation);
     return screw.rotation + (C_ * cross(w_, turned) + -B_ * turned);
   }
-  Pair3 way(const ScrewPair& screw) const {
-    const Pair3 along = cross(w_, screw.translation) + cross(screw.rotation, d_);
+  template <class V>
+  Changes3<V> way(const ScrewChanges<V>& screw) const {
+    const Changes3<V> along = cross(w_, screw.translation) + cross(screw.rotation, d_);
     return screw.translation + (C_ * (cross(w_, along) + cross(screw.rotation, wd_)) + -B_ * along) +
            by_angle(screw.rotation);
   }
@@ -45,28 +47,32 @@ class MotionSlopes {
     const Angular<double, D> moment = moment_ - arm_cross(way_, force_);
     return {embedded(force_) - distal.force_N, embedded_angular(moment) - distal.moment_Nmm};
   }
-  Pair3 carried_force(const Pair3& proximal_force, const Pair3& turn) const {
+  template <class V>
+  Changes3<V> carried_force(const Changes3<V>& proximal_force, const Changes3<V>& turn) const {
     return rotate_back(proximal_force) + cross(force_, turn);
   }
-  Pair3 carried_moment(const Pair3& proximal_moment, const Pair3& carried_force, const Pair3& turn,
-                       const Pair3& way) const {
+  template <class V>
+  Changes3<V> carried_moment(const Changes3<V>& proximal_moment, const Changes3<V>& carried_force,
+                             const Changes3<V>& turn, const Changes3<V>& way) const {
     return rotate_back(proximal_moment) + cross(moment_, turn) + cross(force_, way) + -1.0 * cross(way_, carried_force);
   }
 
  private:
-  Pair3 rotate_back(const Pair3& x) const {
-    const Pair3 wx = cross(w_, x);
+  template <class V>
+  Changes3<V> rotate_back(const Changes3<V>& x) const {
+    const Changes3<V> wx = cross(w_, x);
     return x + (B_ * cross(w_, wx) + -motion_.A * wx);
   }
 
   // By the change of the angle's square.
-  Pair3 by_angle(const Pair3& turn) const {
+  template <class V>
+  Changes3<V> by_angle(const Changes3<V>& turn) const {
     const Vector<double, D>& by = by_squared_;
     if constexpr (D == 2) {
-      const Pair squared = 2 * w_[0] * turn.z;
-      return {by[0] * squared, by[1] * squared, Pair{}};
+      const V squared = 2 * w_[0] * turn.z;
+      return {by[0] * squared, by[1] * squared, V{}};
     } else {
-      const Pair squared = 2.0 * (w_[0] * turn.x + w_[1] * turn.y + w_[2] * turn.z);
+      const V squared = 2.0 * (w_[0] * turn.x + w_[1] * turn.y + w_[2] * turn.z);
       return {by[0] * squared, by[1] * squared, by[2] * squared};
     }
   }

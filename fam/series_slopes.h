@@ -3,22 +3,22 @@
 #pragma once
 
 #include "fam/arc_series.h"
-#include "fam/change_pair.h"
+#include "fam/changes.h"
 #include "fam/section_slopes.h"
 
 namespace fam {
 
-template <int D>
-[[gnu::always_inline]] inline ScrewPair bracket(const BasicScrew<double, D>& a, const ScrewPair& da,
-                                                const BasicScrew<double, D>& b, const ScrewPair& db) {
+template <class V, int D>
+[[gnu::always_inline]] inline ScrewChanges<V> bracket(const BasicScrew<double, D>& a, const ScrewChanges<V>& da,
+                                                      const BasicScrew<double, D>& b, const ScrewChanges<V>& db) {
   return {cross(da.rotation, b.rotation) + cross(a.rotation, db.rotation),
           cross(da.rotation, b.translation_mm) + cross(a.rotation, db.translation) + cross(da.translation, b.rotation) +
               cross(a.translation_mm, db.rotation)};
 }
 
 // An arc's series, and what the slopes ask of it more than once. In the plane (D = 2) the arc lies there, its changes
-// need not: `arc` is the section in space all the same, without tendons.
-template <bool with_shear, std::size_t terms, int D>
+// need not: `arc` is the section in space all the same, without tendons. V: changes at a time (fam/changes.h).
+template <class V, bool with_shear, std::size_t terms, int D>
 class SeriesSlopes {
  public:
   using Series = RodSeries<double, D, terms>;
@@ -49,19 +49,19 @@ class SeriesSlopes {
 
   // Slopes of the screw; with distributed forces of the wrench at the proximal end.
   struct Slopes {
-    ScrewPair screw;
-    Pair3 force, moment;
+    ScrewChanges<V> screw;
+    Changes3<V> force, moment;
   };
   template <int N>
-  Slopes pair(const ArcChange<N>& change, const ConstantSeries<terms>* constant, int first) const {
+  Slopes changes(const ArcChange<N>& change, const ConstantSeries<terms>* constant, int first) const {
     Terms d;
-    d.force[0] = columns(change.force_N, first);
-    d.moment[0] = columns(change.moment_Nmm, first);
-    if (forces_) d.fixed[0] = columns(change.fixed_D_N, first);
+    d.force[0] = columns<V>(change.force_N, first);
+    d.moment[0] = columns<V>(change.moment_Nmm, first);
+    if (forces_) d.fixed[0] = columns<V>(change.fixed_D_N, first);
     set_strain(d, constant, first, 0);
     for (std::size_t k = 0; k + 1 < terms; ++k) {
       advance(d, k);
-      if (forces_ && k == 0) d.force[1] += columns(change.follower_S_N, first);
+      if (forces_ && k == 0) d.force[1] += columns<V>(change.follower_S_N, first);
       set_strain(d, constant, first, k + 1);
     }
     Slopes slopes{magnus(d), {}, {}};
@@ -79,15 +79,16 @@ class SeriesSlopes {
 
  private:
   struct Terms {
-    std::array<Pair3, terms> rotation, translation, force, moment, fixed;
-    std::array<std::array<Pair3, terms>, D == 3 ? scene::max_tendon_offsets : 0> tendons;  // t h, as far as there are
+    std::array<Changes3<V>, terms> rotation, translation, force, moment, fixed;
+    std::array<std::array<Changes3<V>, terms>, D == 3 ? scene::max_tendon_offsets : 0>
+        tendons;  // t h, as far as there are
   };
 
   // The strain under the wrench and what a changed constant is worth.
   [[gnu::always_inline]] void set_strain(Terms& d, const ConstantSeries<terms>* constant, int first,
                                          std::size_t k) const {
-    Pair3 force = d.force[k], moment = d.moment[k];
-    if (constant) force += columns(constant->force[k], first), moment += columns(constant->moment[k], first);
+    Changes3<V> force = d.force[k], moment = d.moment[k];
+    if (constant) force += columns<V>(constant->force[k], first), moment += columns<V>(constant->moment[k], first);
     if constexpr (D == 3) {
       if (!arc_.tendons.empty()) return set_tendon_strain(d, force, moment, k);
     }
@@ -95,10 +96,10 @@ class SeriesSlopes {
     d.rotation[k] = {c[0] * moment.x, c[1] * moment.y, c[2] * moment.z};
     if constexpr (with_shear) d.translation[k] = {l[0] * force.x, l[1] * force.y, l[2] * force.z};
   }
-  void set_tendon_strain(Terms& d, Pair3 force, Pair3 moment, std::size_t k) const {
+  void set_tendon_strain(Terms& d, Changes3<V> force, Changes3<V> moment, std::size_t k) const {
     const auto tendons = section_.tendons();
     for (std::size_t i = 0; k > 0 && i < tendons.size(); ++i) {
-      Pair3 pull = product(tendons[i].across[1], d.tendons[i][k - 1]);
+      Changes3<V> pull = product(tendons[i].across[1], d.tendons[i][k - 1]);
       for (std::size_t j = 2; j <= k; ++j) pull += product(tendons[i].across[j], d.tendons[i][k - j]);
       moment += cross(pull, tendons[i].arm_mm);
       if constexpr (with_shear) force += -1.0 * pull;
@@ -118,7 +119,7 @@ class SeriesSlopes {
 
   // Coefficient k + 1 of the wrench and the fixed force, the strain's k-th being known.
   void advance(Terms& d, std::size_t k) const {
-    Pair3 force{}, moment{}, fixed{};
+    Changes3<V> force{}, moment{}, fixed{};
     for (std::size_t j = 0; j <= k; ++j) {
       const std::size_t i = k - j;
       force += cross(s_.rotation[i], d.force[j]) + cross(d.rotation[j], s_.force_N[i]);
@@ -139,14 +140,15 @@ class SeriesSlopes {
   }
 
   template <std::size_t count>
-  static Pair3 sum(const std::array<Pair3, terms>& c, const std::array<double, count>& weights, std::size_t from = 0) {
-    Pair3 result = weights[0] * c[from];
+  static Changes3<V> sum(const std::array<Changes3<V>, terms>& c, const std::array<double, count>& weights,
+                         std::size_t from = 0) {
+    Changes3<V> result = weights[0] * c[from];
     for (std::size_t k = 1; k < count; ++k) result += weights[k] * c[from + k];
     return result;
   }
 
-  ScrewPair magnus(const Terms& d) const {
-    ScrewPair whole{sum(d.rotation, strain_weights), {}}, d1{sum(d.rotation, a1_weights), {}},
+  ScrewChanges<V> magnus(const Terms& d) const {
+    ScrewChanges<V> whole{sum(d.rotation, strain_weights), {}}, d1{sum(d.rotation, a1_weights), {}},
         d2{sum(d.rotation, a2_weights, 1), {}}, d3{sum(d.rotation, a3_weights, 2), {}};
     if constexpr (with_shear) {
       whole.translation = sum(d.translation, strain_weights);
@@ -154,8 +156,8 @@ class SeriesSlopes {
       d2.translation = sum(d.translation, a2_weights, 1);
       d3.translation = sum(d.translation, a3_weights, 2);
     }
-    const ScrewPair b = bracket(a1_, d1, a2_, d2);
-    const ScrewPair middle = bracket(a1_, d1, inner_, (1 / 360.) * d3 + (-1 / 720.) * b);
+    const ScrewChanges<V> b = bracket(a1_, d1, a2_, d2);
+    const ScrewChanges<V> middle = bracket(a1_, d1, inner_, (1 / 360.) * d3 + (-1 / 720.) * b);
     return whole + (1 / 12.) * b + bracket(a1_, d1, middle_, middle) + bracket(a2_, d2, outer_, (-1 / 240.) * (d3 + b));
   }
 

@@ -1,6 +1,7 @@
 #include "fam/varied_march.h"
 
 #include "fam/skew.h"
+#include "fam/vector_unit.h"
 
 namespace fam {
 namespace {
@@ -38,11 +39,50 @@ template <int N, int M>
 ArcFields<N> combined(const ArcVariation<M>& by_unit, const Eigen::Matrix<double, M, N>& met) {
   ArcFields<N> result{by_unit.motion, by_unit.way_D_mm, by_unit.gain_D, {}};
   if constexpr (M == 6) {
-    result.slopes.template topRows<6>().noalias() = by_unit.slopes.template topRows<6>().lazyProduct(met);
+    call_on(widest_unit(), [&] {
+      result.slopes.template topRows<6>().noalias() = by_unit.slopes.template topRows<6>().lazyProduct(met);
+    });
   } else {
-    result.slopes.noalias() = by_unit.slopes.lazyProduct(met);
+    call_on(widest_unit(), [&] { result.slopes.noalias() = by_unit.slopes.lazyProduct(met); });
   }
   return result;
+}
+
+// Two directions across a vector and each other; none where it vanishes.
+Eigen::Matrix<double, 3, 2> two_across(const Vector3d& v) {
+  int least;
+  v.cwiseAbs().minCoeff(&least);
+  Eigen::Matrix<double, 3, 2> result;
+  const Vector3d first = Vector3d::Unit(least).cross(v).normalized();
+  result << first, v.cross(first).normalized();
+  return result;
+}
+
+// Wrench and fields from the arc's distal end to its proximal one.
+template <int N>
+void carry(const ArcFields<N>& arc, bool distributed, SectionState<3>& state, Fields<3, N>& fields) {
+  // In the distal frame: the wrench about the distal end, then about the proximal one; then all into that one's frame.
+  const auto turn = arc.slopes.template topRows<3>(), way = arc.slopes.template middleRows<3>(3);
+  SectionWrench wrench = state.wrench;
+  if (distributed) {
+    wrench = wrench + arc.gain_D;
+    fields.force_N += arc.slopes.template middleRows<3>(6);
+    fields.moment_Nmm += arc.slopes.template bottomRows<3>();
+  }
+  const Matrix3d force = skew(wrench.force_N);
+  wrench.moment_Nmm += arc.way_D_mm.cross(wrench.force_N);
+  fields.moment_Nmm += skew(arc.way_D_mm) * fields.force_N - force * way;
+  fields.moment_Nmm -= skew(wrench.moment_Nmm) * turn;
+  fields.force_N -= force * turn;
+  fields.turn -= turn;
+  const auto rotate = [&motion = arc.motion](auto& matrix) {
+    for (int column = 0; column < matrix.cols(); ++column) matrix.col(column) = motion.rotate(matrix.col(column));
+  };
+  rotate(fields.turn);
+  rotate(fields.force_N);
+  rotate(fields.moment_Nmm);
+  rotate(state.rotation_SB);
+  state.wrench = {arc.motion.rotate(wrench.force_N), arc.motion.rotate(wrench.moment_Nmm)};
 }
 
 }  // namespace
@@ -95,32 +135,15 @@ bool vary_step(const LoadedRod<3>& rod, const SpanArcs<3>& span, SectionState<3>
     met << fields.force_N, fields.moment_Nmm;
     arc = combined(vary(unit_changes<6>()), met);
   } else {
-    Eigen::Matrix<double, 9, N> met;
-    met << fields.force_N, fields.moment_Nmm, skew(forces.fixed_D_N) * fields.turn;
-    arc = combined(vary(unit_changes<9>()), met);
+    // A turn changes the force fixed in space across itself alone.
+    const Eigen::Matrix<double, 3, 2> across = two_across(forces.fixed_D_N);
+    ArcChange<8> change = unit_changes<8>();
+    change.fixed_D_N.rightCols<2>() = across;
+    Eigen::Matrix<double, 8, N> met;
+    met << fields.force_N, fields.moment_Nmm, across.transpose() * skew(forces.fixed_D_N) * fields.turn;
+    arc = combined(vary(change), met);
   }
-  // In the distal frame: the wrench about the distal end, then about the proximal one; then all into that one's frame.
-  const auto turn = arc.slopes.template topRows<3>(), way = arc.slopes.template middleRows<3>(3);
-  SectionWrench wrench = state.wrench;
-  if (distributed) {
-    wrench = wrench + arc.gain_D;
-    fields.force_N += arc.slopes.template middleRows<3>(6);
-    fields.moment_Nmm += arc.slopes.template bottomRows<3>();
-  }
-  const Matrix3d force = skew(wrench.force_N);
-  wrench.moment_Nmm += arc.way_D_mm.cross(wrench.force_N);
-  fields.moment_Nmm += skew(arc.way_D_mm) * fields.force_N - force * way;
-  fields.moment_Nmm -= skew(wrench.moment_Nmm) * turn;
-  fields.force_N -= force * turn;
-  fields.turn -= turn;
-  const auto rotate = [&motion = arc.motion](auto& matrix) {
-    for (int column = 0; column < matrix.cols(); ++column) matrix.col(column) = motion.rotate(matrix.col(column));
-  };
-  rotate(fields.turn);
-  rotate(fields.force_N);
-  rotate(fields.moment_Nmm);
-  rotate(state.rotation_SB);
-  state.wrench = {arc.motion.rotate(wrench.force_N), arc.motion.rotate(wrench.moment_Nmm)};
+  call_on(widest_unit(), [&] { carry(arc, distributed != nullptr, state, fields); });
   return span.constants.is_elastic() || arc.motion.rotation.allFinite();  // else the strain was not found
 }
 

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
+#include <span>
 
 using Eigen::Vector3d;
 
@@ -57,6 +59,51 @@ TEST(PlanarSlopes, OfAnArcAreThoseInSpace) {
   for (const fam::RodModel model : {fam::RodModel::kirchhoff, fam::RodModel::reissner}) {
     expect_same<6>(model, false);
     expect_same<9>(model, true);
+  }
+}
+
+// Whatever the processor has: two changes at a time, or four by other instructions. A change more or less does not
+// matter to the others.
+template <int N>
+void expect_same_of_units(fam::RodModel model, bool with_forces, std::span<const fam::BasicTendon<3>> tendons) {
+  std::mt19937 random(8);
+  for (int i = 0; i < 50; ++i) {
+    PlanarArc arc = random_arc(random);
+    arc.wrench.force_N[2] = 5;
+    arc.wrench.moment_Nmm[0] = 50;
+    arc.forces.fixed_D_N[2] = 1;
+    arc.constants.tendons = tendons;
+    const fam::ArcForces<double, 3>* forces = with_forces ? &arc.forces : nullptr;
+    const auto by = [&]<int M>(fam::VectorUnit unit) {
+      return fam::vary_arc(fam::Law::sixth_order, model, arc.constants, forces, arc.wrench, fam::unit_changes<M>(),
+                           unit);
+    };
+    const auto two = by.template operator()<N>(fam::VectorUnit::portable);
+    const auto four = by.template operator()<N>(fam::widest_unit());
+    const auto wrench_alone = by.template operator() < N == 8 ? 9 : N > (fam::VectorUnit::portable);
+    for (int row = 0; row < 12; row += 3) {
+      const Eigen::Matrix<double, 3, N> expected = two.slopes.template middleRows<3>(row);
+      const double allowed = 1e-12 * expected.norm();
+      EXPECT_LE((four.slopes.template middleRows<3>(row) - expected).norm(), allowed) << i << row;
+      EXPECT_LE(
+          (wrench_alone.slopes.template middleRows<3>(row).template leftCols<6>() - expected.template leftCols<6>())
+              .norm(),
+          allowed);
+    }
+    EXPECT_LE((four.way_D_mm - two.way_D_mm).norm(), 1e-13 * 20);
+    EXPECT_LE((four.motion.rotation - two.motion.rotation).norm(), 1e-14);
+  }
+}
+
+TEST(ArcSlopes, OfEveryVectorUnitAreTheSame) {
+  const std::array<fam::BasicTendon<3>, 2> tendons{{{{0, 2, 1}, 3}, {{0, -1, 2}, 5}}};
+  for (const fam::RodModel model : {fam::RodModel::kirchhoff, fam::RodModel::reissner}) {
+    for (const std::size_t count : {0, 2}) {
+      const std::span<const fam::BasicTendon<3>> some(tendons.data(), count);
+      expect_same_of_units<6>(model, false, some);
+      expect_same_of_units<8>(model, true, some);
+      expect_same_of_units<9>(model, true, some);
+    }
   }
 }
 
