@@ -53,6 +53,7 @@ scene::Status BasicBoundaryValue<D>::run_from(const BasicBoundaryValue& fewer_ar
 // Arcs, poses and wrenches from the nodes.
 template <int D>
 scene::Status BasicBoundaryValue<D>::place_arcs() {
+  stability_.reset();
   struct {
     BasicBoundaryValue& self;
     void meet(int arc, const SectionState<D>& state) const {

@@ -5,6 +5,8 @@
 #include "fam/load_growth.h"
 #include "fam/march.h"
 
+#include <optional>
+
 namespace fam {
 
 // In space, D = 3, or for rods in the x-y plane, D = 2 (spans with nothing out of it). A planar rod may still buckle
@@ -50,7 +52,10 @@ class BasicBoundaryValue {
 
   // Of the equilibrium, a minimum of the energy if it has no conjugate point. Only for fixed forces, gravity and
   // tendons (the caller's to check).
-  Stability stability() const { return growth_.judge(shooting_); }
+  const Stability& stability() const {
+    if (!stability_) stability_ = growth_.judge(shooting_);
+    return *stability_;
+  }
   // Whether the loads are too small for a second equilibrium; then the one found is stable.
   bool one_equilibrium() const { return shooting_.one_equilibrium(); }
 
@@ -65,7 +70,8 @@ class BasicBoundaryValue {
   std::vector<BasicMotion<double, D>> motions_;
   std::vector<BasicPose<D>> poses_;
   std::vector<BasicWrench<double, D>> distal_wrenches_S_;
-  const char* why_ = nullptr;  // not converged, where it is not the growth of the load that failed
+  mutable std::optional<Stability> stability_;  // of the last run that converged, once asked for
+  const char* why_ = nullptr;                   // not converged, where it is not the growth of the load that failed
 };
 
 using BoundaryValue = BasicBoundaryValue<3>;

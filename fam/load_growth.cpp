@@ -158,11 +158,11 @@ std::string LoadGrowth<D>::message() const {
 }
 
 template <int D>
-void LoadGrowth<D>::start_watch(const Shooting<D>& shooting) {
+void LoadGrowth<D>::start_watch(const Shooting<D>& shooting, bool at_rest) {
   const LoadWay& way = shooting.rod().way();
   const scene::Symmetry symmetry = scene::common_symmetry(scene::symmetry_of(way.from), scene::symmetry_of(way.to));
   watches_determinant_ = symmetry != scene::Symmetry::axis;
-  watches_stability_ = scene::is_conservative(way.bounds) && !is_unstable(shooting);
+  watches_stability_ = scene::is_conservative(way.bounds) && (at_rest || !is_unstable(shooting));
   may_fall_ = symmetry != scene::Symmetry::none;
   branch_ = {};
   branch_.keep(0, shooting.determinant());
@@ -178,7 +178,7 @@ scene::Status LoadGrowth<D>::run(Shooting<D>& shooting) {
   load_steps_ = 0;
   shooting.start_unloaded();
   const LoadBounds& bounds = shooting.bounds();
-  return grow(shooting, bounds.load_length * bounds.load_length + bounds.turn_rad);
+  return grow(shooting, bounds.load_length * bounds.load_length + bounds.turn_rad, true);
 }
 
 // A fold is where steps lead nowhere and the determinant has all but vanished.
@@ -192,7 +192,7 @@ scene::Status LoadGrowth<D>::run_on(Shooting<D>& shooting) {
   shooting.set_load(0);
   load_steps_ = 0;
   const LoadWay& way = shooting.rod().way();
-  end_.status = grow(shooting, size_of_change(way.from, way.to));
+  end_.status = grow(shooting, size_of_change(way.from, way.to), false);
   const bool fold = end_.status == scene::Status::load_step_too_small && watches_determinant_ &&
                     scene::log_fall(start_determinant_, branch_.last()) > -std::log(limit_point_determinant);
   return end_.status = fold ? scene::Status::limit_point : end_.status;
@@ -206,10 +206,10 @@ double LoadGrowth<D>::growth_of_step(double surprise) const {
 }
 
 template <int D>
-scene::Status LoadGrowth<D>::grow(Shooting<D>& shooting, double size) {
+scene::Status LoadGrowth<D>::grow(Shooting<D>& shooting, double size, bool at_rest) {
   load_factor_ = previous_factor_ = 0;
   if (!shooting.newton(shooting.newton_tolerance())) return end_.status = scene::Status::not_converged;
-  start_watch(shooting);
+  start_watch(shooting, at_rest);
   // No farther than to where the determinant can vanish, for all that one load tells; a taut rod slackens first.
   const scene::Determinant& start = branch_.last();
   const double nearness = watches_determinant_ ? std::min(1.0, std::exp(start.log_size)) : 1;

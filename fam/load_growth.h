@@ -55,9 +55,10 @@ class LoadGrowth {
  private:
   using Nodes = std::vector<SectionState<D>>;
 
-  // size: of the change of the loads; 1 is too little to make a straight rod critical.
-  scene::Status grow(Shooting<D>& shooting, double size);
-  void start_watch(const Shooting<D>& shooting);
+  // size: of the change of the loads; 1 is too little to make a straight rod critical. at_rest: from no load, where a
+  // rod is stable.
+  scene::Status grow(Shooting<D>& shooting, double size, bool at_rest);
+  void start_watch(const Shooting<D>& shooting, bool at_rest);
   void predict(const Shooting<D>& shooting, double factor);
   void extrapolate(const Nodes& now, const Nodes& earlier, double times);
   // Before or after a step to where the determinant is this.

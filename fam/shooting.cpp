@@ -329,10 +329,11 @@ bool Shooting<D>::solve_from(const Shooting& fewer) {
   nodes_ = fewer.nodes_;
   newton_steps_ = fewer.newton_steps_;
   set_load(1);
+  const OnTheWay way{fewer.determinant(), leading_turn_rad};
   slope_ = fewer.slope_;
-  if (segments_.size() == 1) return newton_one_segment(true, newton_tolerance_);
+  if (segments_.size() == 1) return newton_one_segment(true, newton_tolerance_, &way);
   system_ = fewer.system_;
-  return newton_segments(true, newton_tolerance_);
+  return newton_segments(true, newton_tolerance_, &way);
 }
 
 // Of a taut rod the determinant is cosh(int sqrt(n_x / EI) ds) for each plane of bending.

@@ -11,6 +11,7 @@ namespace fam {
 namespace {
 
 int negative_eigenvalues(const Matrix3d& matrix) {
+  if ((matrix - Matrix3d::Identity()).squaredNorm() < 1) return 0;  // none is so far from 1
   return static_cast<int>((matrix.eigenvalues().real().array() < 0).count());
 }
 

@@ -1,6 +1,7 @@
 #include "fam/tolerance.h"
 
 #include "fam/shape.h"
+#include "scene/span_facts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,16 +58,33 @@ double round_off_mm(const Problem& problem, const Run& run) {
   return 4 * std::numeric_limits<double>::epsilon() * problem.length_mm() * std::sqrt(run.arc_count());
 }
 
-// The answer with more arcs, from that with fewer. Where that one is far off, or its arcs are too long to lead there,
-// the loads grow from nothing once more: it may lie on another branch.
-void refine(const Problem& problem, std::span<const int> arcs, int factor, const Run& coarse, Run& fine) {
-  const bool leads =
-      !coarse.engine.is_march() && coarse.converged() && coarse.extent(problem).swing_rad <= leading_swing_rad;
+// The answer with more arcs, from that with fewer if that may lead there. Where it is far off, or its arcs are too
+// long, the loads grow from nothing once more: it may lie on another branch.
+void refine(const Problem& problem, std::span<const int> arcs, int factor, const Run& coarse, Run& fine,
+            bool may_lead) {
+  const bool leads = may_lead && !coarse.engine.is_march() && coarse.converged() &&
+                     coarse.extent(problem).swing_rad <= leading_swing_rad;
   if (leads) {
     fine.solve(problem, arcs, factor, &coarse);
-    if (fine.converged() && distance(coarse, fine).position_mm <= leading_distance * problem.length_mm()) return;
+    if (fine.converged()) return;
   }
   fine.solve(problem, arcs, factor);
+}
+
+template <int D>
+bool are_apart(const BasicBoundaryValue<D>& fewer, const BasicBoundaryValue<D>& more) {
+  const double ratio = std::min(2.0, static_cast<double>(more.arc_count()) / fewer.arc_count());
+  return !fewer.one_equilibrium() && !agree(fewer.stability(), more.stability(), apart_share * (ratio - 1));
+}
+template <int D>
+bool are_apart(const BasicMarch<D>&, const BasicMarch<D>&) {
+  return false;
+}
+
+// See most_apart.
+bool are_apart(const Problem& problem, const Run& fewer, const Run& more) {
+  return scene::is_conservative(problem.spans()) &&
+         fewer.engine.visit_with(more.engine, [](const auto& a, const auto& b) { return are_apart(a, b); });
 }
 
 // In a march so fine a tendon without length is the rod's, not that of arcs too long to see it turn in time. Of 110
@@ -165,17 +183,22 @@ Found solve_to_tolerance(const Problem& problem, Run& one, Run& another) {
   Ladder ladder(problem);
   Run *coarse = &one, *fine = &another;
   coarse->solve(problem, first);
+  int times_apart = 0;
+  bool apart = false;
   for (int multiple = 1, next = 2; static_cast<double>(next) * count <= max_arcs;) {
-    refine(problem, first, next, *coarse, *fine);
+    refine(problem, first, next, *coarse, *fine, !apart);
     const double ratio = static_cast<double>(next) / multiple;
     int after = 2 * next;
     if (!fine->converged() && is_the_end(*coarse, *fine)) return {fine, coarse, fine->status};
     if (coarse->converged() && fine->converged()) {
-      if (const Run* run = ladder.sufficient(*coarse, *fine, ratio)) {
+      const Run* run = ladder.sufficient(*coarse, *fine, ratio);
+      apart = times_apart < most_apart && are_apart(problem, *coarse, *fine);
+      if (run && !apart) {
         if (run == coarse) std::swap(coarse, fine);
         return {fine, coarse, Status::converged, ladder.error_mm()};
       }
-      after = ladder.next(next);
+      times_apart += apart;
+      if (!apart) after = ladder.next(next);
     }
     multiple = next;
     next = after;

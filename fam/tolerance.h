@@ -41,10 +41,15 @@ constexpr double fine_safety = 4;
 constexpr double distrust = 4;
 constexpr double unconfirmed = 0.5;
 constexpr double contraction = 0.3;
-// An answer farther than this times L from the next finer one, or one whose arcs swing farther, does not lead there:
-// that one's loads grow from nothing.
-constexpr double leading_distance = 0.05;
+// An answer whose arcs swing farther does not lead to the next finer one, as one does not that is too far from it
+// (leading_turn_rad): that one's loads grow from nothing.
 constexpr double leading_swing_rad = 1.25;
+// Two runs of a rod whose loads have an energy that tell its stability apart, by an unstable direction or by the
+// logarithm of the determinant, do not show their error: beside a critical point it is as far off as that is near. The
+// next one's loads grow from nothing, for more arcs may have led over the critical point. Four times what decides the
+// stability (agree), so often at most. Chosen, not measured.
+constexpr double apart_share = 4;
+constexpr int most_apart = 3;
 // Runs that fail within this of the same load, relative, fail by the rod and not by their arcs.
 constexpr double same_load = 1e-3;
 
