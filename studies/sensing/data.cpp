@@ -1,12 +1,8 @@
 #include "studies/sensing/data.h"
 
-#include "fam/estimator.h"
 #include "studies/scenes/sensing_problem.h"
 
 #include <fmt/format.h>
-
-#include <cmath>
-#include <numbers>
 
 namespace studies {
 namespace {
@@ -81,47 +77,6 @@ std::map<std::string, std::string> sensing_data(const std::filesystem::path& cas
   return {{"data/README.md", readme},
           {"data/four_positions.csv", set_of(Sensing::four_positions, published_noise_mm, cases)},
           {"data/two_contacts.csv", set_of(Sensing::two_contacts, published_noise_per_mm, cases)}};
-}
-
-Table observability_table(int digits) {
-  constexpr double length_mm = 40, bending_Nmm2 = 1500, unit_N = bending_Nmm2 / (length_mm * length_mm);
-  const std::vector<double> angles_deg{0, 10, 45, 90}, sizes{0.01, 0.1, 1};
-  std::vector<std::string> head{"force at, L", "size, EI/L²"};
-  for (const double angle : angles_deg) head.push_back(fmt::format("{:g}° to the rod", angle));
-  Table table(head);
-  for (const double place : {1e-7, 0.1, 0.25, 0.5, 1.0}) {
-    for (const double size : sizes) {
-      std::vector<std::string> cells{fmt::format("{:g}", place), fmt::format("{:g}", size)};
-      for (const double angle_deg : angles_deg) {
-        const double angle = angle_deg * std::numbers::pi / 180;
-        const Eigen::Vector3d along(std::cos(angle), std::sin(angle), 0);
-        scene::Scene scene;
-        scene::Stiffness stiffness;
-        stiffness.bending_Nmm2.setConstant(bending_Nmm2);
-        stiffness.torsion_Nmm2 = 1000;
-        scene.sections = {{length_mm, stiffness, Eigen::Vector3d::Zero()}};
-        scene.loads = {scene::Force{place * length_mm, scene::Frame::fixed, size * unit_N * along}};
-        fam::Options fine;
-        fine.tolerance_mm = 1e-7;
-        const scene::Equilibrium answer = fam::solve(scene, fine);
-        scene::EstimationProblem problem{
-            {{scene, {{length_mm, scene::PositionMeasurement{answer.tip().position_B_mm, 0.01}}}}}, {}};
-        for (const int axis : {0, 1, 2}) {
-          problem.unknowns.push_back({scene::Unknown::Kind::component, 0, 0, axis});
-          problem.unknowns.back().prior_mean = size * unit_N * along[axis];
-        }
-        const fam::Estimate found = fam::Estimator(problem).estimate();
-        double variance = 0;
-        for (const int i : {0, 1, 2})
-          for (const int k : {0, 1, 2})
-            if (along[i] * along[k] != 0) variance += along[i] * along[k] * found.covariance(i, k);
-        const bool known = found.converged() && std::isfinite(variance);
-        cells.push_back(known ? significant(std::sqrt(variance) / (size * unit_N), digits) : "–");
-      }
-      table.add(cells);
-    }
-  }
-  return table;
 }
 
 }  // namespace studies

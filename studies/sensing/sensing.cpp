@@ -5,6 +5,7 @@
 #include "studies/report/table.h"
 #include "studies/sensing/data.h"
 #include "studies/sensing/models.h"
+#include "studies/sensing/observability.h"
 #include "studies/sensing/trials.h"
 #include "studies/study.h"
 
@@ -162,7 +163,6 @@ std::map<std::string, std::string> files_of(const SensingRows& noises, const Sen
   page.set("contacts_wrong", share(contacts));
   page.set("noise_table", table_of(noises, "problem").markdown());
   page.set("sensor_table", table_of(sensors, "positions").markdown());
-  page.set("observability", observability_table(2).markdown());
   page.set("model_table", table_of(models, "wrong with the model").markdown());
   const Table starts = starts_table(options.cases), laws = laws_table(), times = times_table(options.cases);
   page.set("starts_table", starts.markdown());
@@ -175,7 +175,6 @@ std::map<std::string, std::string> files_of(const SensingRows& noises, const Sen
   return {{"noise.csv", table_of(noises, "problem").csv({"Synthetic; error and predicted sd are root mean squares."})},
           {"sensors.csv", table_of(sensors, "positions").csv({"Tip force from n positions to 0.03 mm."})},
           {"models.csv", table_of(models, "wrong with the model").csv({"Tip force from four positions."})},
-          {"observability.csv", observability_table(4).csv({"Without noise; see the page."})},
           {"noise.svg", noise_picture(noises)},
           {"sensors.svg", sensors_picture(sensors)},
           {"starts.csv", starts.csv({"Twelve starts for each of 20 truths."})},
@@ -192,6 +191,7 @@ void sensing(const StudyOptions& options) {
   for (SensingRows* rows : {&noises, &sensors, &models}) run(*rows, options);
   std::map<std::string, std::string> files = files_of(noises, sensors, models, options);
   files.merge(sensing_data(options.cases));
+  files.merge(observability_files());
   write_results(options.output / "sensing", "fam-studies sensing", files);
 }
 

@@ -95,14 +95,19 @@ std::string silent_by_map(const StabilityData& data) {
 
 std::string stable_as_exact(const StabilityData& data) {
   int asked = 0, same = 0;
+  std::string others;
   for (const StabilityCell& cell : data.cells) {
     const ExactIndex* index = data.index_at(data.map_named(cell.map), cell.x, cell.y);
     if (cell.method == "exact" || !is_right(cell.judgement.verdict) || !cell.stable || !index || !index->falling)
       continue;
     ++asked;
-    same += *cell.stable == (*index->falling == 0);
+    const bool is_same = *cell.stable == (*index->falling == 0);
+    same += is_same;
+    if (!is_same)
+      others += fmt::format("{}{} at {}, {}", others.empty() ? "" : "; ", contender(cell.method).name(),
+                            axis_text(cell.x), axis_text(cell.y));
   }
-  return fmt::format("{} of {}", same, asked);
+  return fmt::format("{} of {}{}", same, asked, others.empty() ? "" : " (not " + others + ")");
 }
 
 std::string unstable_by_map(const StabilityData& data) {
