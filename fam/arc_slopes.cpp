@@ -151,8 +151,9 @@ ArcVariation<N> vary_by_series(const BasicArcConstants<3>& arc, const ArcForces<
 }
 
 template <bool with_shear, std::size_t terms, int D, int N>
-ArcVariation<N> vary_on(VectorUnit unit, const BasicArcConstants<3>& arc, const ArcForces<double, D>* forces,
-                        const RodSeries<double, D, terms>& s, const SectionWrench& wrench, const ArcChange<N>& change) {
+ArcVariation<N> vary_on([[maybe_unused]] VectorUnit unit, const BasicArcConstants<3>& arc,
+                        const ArcForces<double, D>* forces, const RodSeries<double, D, terms>& s,
+                        const SectionWrench& wrench, const ArcChange<N>& change) {
 #ifdef FAM_HAS_AVX2_UNIT
   if (unit == VectorUnit::avx2)
     return call_by_avx2([&] { return vary_by_series<Quad, with_shear>(arc, forces, s, wrench, change); });

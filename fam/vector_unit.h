@@ -27,7 +27,7 @@ template <class F>
 #endif
 
 template <class F>
-auto call_on(VectorUnit unit, const F& f) {
+auto call_on([[maybe_unused]] VectorUnit unit, const F& f) {
 #ifdef FAM_HAS_AVX2_UNIT
   if (unit == VectorUnit::avx2) return call_by_avx2(f);
 #endif
