@@ -1,4 +1,5 @@
 // Campaigns `random`, `audit` and `promise`: one answer a scene, judged.
+#include "exact_reference/solve.h"
 #include "fam/solve.h"
 #include "studies/campaign/judged.h"
 #include "studies/campaign/kind_rows.h"
