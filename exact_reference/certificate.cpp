@@ -139,7 +139,7 @@ void measure(Certificate& certificate, const ScaledRod& rod, const Iteration& fo
 }
 
 Certificate::Branch branch_of(const ScaledRod& rod, const Shooting& shooting, const NodeStates& y) {
-  if (!rod.has_fixed_load() || rod.load_size() < 1) return Certificate::Branch::alone;
+  if (!rod.has_fixed_load() || rod.moments_are_known() || rod.load_size() < 1) return Certificate::Branch::alone;
   if (falling_directions(shooting, y).value_or(1) > 0) return Certificate::Branch::doubtful;
   if (rod.symmetry == scene::Symmetry::axis) return Certificate::Branch::same;
   const Shooting coarse(rod, unloaded_intervals);

@@ -17,7 +17,8 @@ namespace exact_reference {
 
 struct Certificate {
   enum class Branch {
-    alone,  // the only equilibrium: loads that follow, or too small for a second one (ScaledRod::load_size() < 1)
+    alone,  // the only equilibrium: loads that follow, moments that are known, loads too small for a second one
+            // (load_size() < 1)
     same,   // the determinant's sign is the unloaded rod's, and no direction lets the energy fall, where there is one
     doubtful
   };

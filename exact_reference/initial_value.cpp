@@ -22,13 +22,15 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector4d;
 
-// State of the march, in the tip's frame T: q 0-3 (section frame in T), n 4-6 and m 7-9 (section frame), p 10-12 (in
-// T). The independent variable is the arc length from the tip.
+// State of the march, in the frame T that it starts from: q 0-3 (section frame in T), n 4-6 and m 7-9 (section frame),
+// p 10-12 (in T). T is the tip's, and the independent variable the arc length from there, where all loads follow; it is
+// the clamp's, and the arc length the rod's, where the moments are known (ScaledRod::moments_are_known).
 using MarchState = Eigen::Matrix<double, 13, 1>;
 
 // The equations of a span, and whether a tendon's path lost its length where they were last evaluated.
 struct MarchedSpan {
   RodEquations rod;
+  double way = -1;  // 1: from the clamp
   bool has_tendon = false;
   bool tendon_collapsed = false;
 };
@@ -43,10 +45,10 @@ int march_derivative(realtype, N_Vector y_vector, N_Vector dy_vector, void* marc
   const auto [u, v] = rod.strains_S(n, m);
   Vector3d dn, dm;
   rod.wrench_derivative_S(n, m, {u, v}, dn, dm);
-  dy.head<4>() = -quaternion_derivative(q, u);
-  dy.segment<3>(4) = -dn;
-  dy.segment<3>(7) = -dm;
-  dy.tail<3>() = -(rotation_of(q) * v);
+  dy.head<4>() = span.way * quaternion_derivative(q, u);
+  dy.segment<3>(4) = span.way * dn;
+  dy.segment<3>(7) = span.way * dm;
+  dy.tail<3>() = span.way * (rotation_of(q) * v);
   span.tendon_collapsed = span.has_tendon && y.allFinite() && !u.allFinite();
   if (span.tendon_collapsed) return 1;  // a shorter step may do
   return dy.allFinite() ? 0 : -1;
@@ -134,7 +136,34 @@ double drift(const MarchState& a, const MarchState& b) {
                   std::abs(m1.dot(n1) - m0.dot(n0)) / (1 + n0.norm() * m0.norm()));
 }
 
+March march_from_clamp(const ScaledRod& rod, const std::vector<double>& places, double tolerance) {
+  March result;
+  result.states.resize(places.size());
+  Integrator integrator(tolerance, most_steps(rod));
+  integrator.state()[0] = 1;
+  for (const ScaledSpan& span : rod.spans) integrator.state().segment<3>(7) += span.fixed_load_B.moment_Nmm;
+  result.states[0] = integrator.state();
+  std::size_t k = 0;
+  for (const ScaledSpan& span : rod.spans) {
+    MarchedSpan marched{RodEquations(span, 1), 1};
+    integrator.restart(span.start, marched);
+    const double moment = integrator.state().segment<3>(7).norm();
+    while (k + 1 < places.size() && places[k + 1] <= span.end) {
+      if (result.steps + integrator.steps() > most_steps(rod) || !integrator.advance_to(places[++k])) return result;
+      result.states[k] = integrator.state();
+    }
+    result.steps += integrator.steps();
+    const double change = std::abs(integrator.state().segment<3>(7).norm() - moment);
+    result.invariant_drift = std::max(result.invariant_drift, change / (1 + moment));
+    integrator.state().segment<3>(7) -=
+        rotation_of(integrator.state().head<4>().normalized()).transpose() * span.fixed_load_B.moment_Nmm;
+  }
+  result.finished = true;
+  return result;
+}
+
 March march(const ScaledRod& rod, const std::vector<double>& places, double tolerance) {
+  if (rod.moments_are_known()) return march_from_clamp(rod, places, tolerance);
   March result;
   result.states.resize(places.size());
   Integrator integrator(tolerance, most_steps(rod));
@@ -142,7 +171,7 @@ March march(const ScaledRod& rod, const std::vector<double>& places, double tole
   const double tip = rod.spans.back().end;
   std::size_t k = places.size() - 1;
   for (auto span = rod.spans.rbegin(); span != rod.spans.rend(); ++span) {
-    MarchedSpan marched{RodEquations(*span, 1), !span->tendons.empty()};
+    MarchedSpan marched{RodEquations(*span, 1), -1, !span->tendons.empty()};
     integrator.state().segment<3>(4) += span->follower_load_S.force_N;
     integrator.state().segment<3>(7) += span->follower_load_S.moment_Nmm;
     integrator.restart(tip - span->end, marched);
@@ -228,7 +257,7 @@ scene::Equilibrium stopped(bool tendon_collapsed) {
   result.status = tendon_collapsed ? scene::Status::tendon_collapsed : scene::Status::work_limit;
   result.message = tendon_collapsed
                        ? "the rod bends so far that the path of a tendon has no length somewhere"
-                       : "the integration from the tip stopped: more than 1e6 steps, or a value that is not finite";
+                       : "the integration along the rod stopped: more than 1e6 steps, or a value that is not finite";
   return result;
 }
 

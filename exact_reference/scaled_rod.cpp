@@ -88,6 +88,14 @@ bool ScaledRod::has_fixed_load() const {
   });
 }
 
+bool ScaledRod::moments_are_known() const {
+  const bool forces = std::any_of(spans.begin(), spans.end(), [](const ScaledSpan& span) {
+    return !span.fixed_load_B.force_N.isZero(0) || !span.fixed_force_arms_BS.isZero(0) ||
+           !span.fixed_density_B.isZero(0);
+  });
+  return has_fixed_moment() && !forces && !has_follower_load() && !has_tendon();
+}
+
 bool ScaledRod::has_tendon() const {
   return std::any_of(spans.begin(), spans.end(), [](const ScaledSpan& span) { return !span.tendons.empty(); });
 }

@@ -61,6 +61,9 @@ struct ScaledRod {
   // buckles.
   double load_size() const;
   bool has_fixed_load() const;  // any load with components in the base frame, gravity included
+  // Moments fixed in space are the only loads, so that the internal ones are known in the base frame before the shape
+  // is, and there is one equilibrium.
+  bool moments_are_known() const;
   bool has_tendon() const;
   bool has_fixed_moment() const;                                                   // not conservative in space
   bool has_follower_load() const;                                                  // not conservative

@@ -13,8 +13,8 @@ namespace exact_reference {
 constexpr double worst_error = 1e-6;
 
 enum class Way {
-  automatic,      // initial_value where all loads follow, else boundary_value
-  initial_value,  // follower loads and tendons only; any other load: status unsupported
+  automatic,      // initial_value where it can be, else boundary_value
+  initial_value,  // follower loads and tendons only, or fixed moments only; any other load: status unsupported
   boundary_value
 };
 

@@ -19,8 +19,8 @@ constexpr double lowest_factor = -1, highest_factor = 2;  // how far the path ma
 constexpr double longest_load_step = 0.05;
 constexpr double way_tolerance = 1e-4;    // of the length, on the way to a fold
 constexpr double limit_tolerance = 1e-6;  // of a fold's load, at most: six digits
-constexpr int most_limit_points = 3000;
-constexpr long long most_limit_arcs = 8'000'000;  // marched: half a minute, a minute and a half with tendons
+constexpr int most_limit_points = 10'000;
+constexpr long long most_limit_arcs = 8'000'000;  // marched: half a minute, a minute with tendons
 
 PathWalk::Settings settings_for(const scene::Scene& scene) {
   const bool pulls = std::any_of(scene.loads.begin(), scene.loads.end(),

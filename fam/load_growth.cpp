@@ -149,6 +149,7 @@ bool LoadGrowth<D>::gives_up(const Shooting<D>& shooting, double step) {
 
 template <int D>
 std::string LoadGrowth<D>::message() const {
+  if (end_.status == scene::Status::arc_not_converged) return "the arcs are too long for the turns of the rod";
   if (end_.status == scene::Status::not_converged) return "Newton did not converge at the loads it starts from";
   std::ostringstream text;
   if (end_.newton_steps > 0) text << "work limit: " << end_.newton_steps << " Newton steps and only ";
@@ -174,6 +175,7 @@ template <int D>
 scene::Status LoadGrowth<D>::run(Shooting<D>& shooting) {
   end_ = {};
   load_steps_ = 1;
+  if (shooting.moments_are_known()) return solve_known_moments(shooting);
   if (shooting.one_equilibrium() && shooting.solve_at_once()) return scene::Status::converged;
   load_steps_ = 0;
   shooting.start_unloaded();
@@ -181,11 +183,21 @@ scene::Status LoadGrowth<D>::run(Shooting<D>& shooting) {
   return grow(shooting, bounds.load_length * bounds.load_length + bounds.turn_rad, true);
 }
 
+// There is no other equilibrium, so that none has to be grown to. Arcs as short as the law takes lead so near that
+// Newton converges.
+template <int D>
+scene::Status LoadGrowth<D>::solve_known_moments(Shooting<D>& shooting) {
+  load_factor_ = 1;
+  shooting.start_from_clamp();
+  return end_.status = shooting.solve_from_here() ? scene::Status::converged : scene::Status::arc_not_converged;
+}
+
 // A fold is where steps lead nowhere and the determinant has all but vanished.
 template <int D>
 scene::Status LoadGrowth<D>::run_on(Shooting<D>& shooting) {
   end_ = {};
   load_steps_ = 1;
+  if (shooting.moments_are_known()) return solve_known_moments(shooting);
   start_ = shooting.nodes();
   if (shooting.one_equilibrium() && shooting.solve_from_here()) return scene::Status::converged;
   shooting.set_nodes(start_);

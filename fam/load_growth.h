@@ -1,16 +1,16 @@
 // How the load of a boundary value problem grows from zero, and which steps keep to the branch.
 //
-// Where the loads are too small for a second equilibrium (Shooting::one_equilibrium) the full load is solved for at
-// once. Beyond, it grows from zero in steps; a step is taken only if Newton converges and no segment end turns by more
-// than largest_turn_rad in it nor lies farther than largest_surprise_rad from where the last steps pointed. Beside
-// a buckling or turning point the branches lie too close to be told apart by their distance, but the sign of the
-// equations' determinant differs from one to the next: a step that changes it is shortened as well, or one that leads
-// on to where it vanishes (scene/branch_watch.h). Where the loads have an energy one that ends unstable is shortened as
-// well, but passes below smallest_bifurcation_step if its symmetry can hold the rod there: in the plane, whose
-// determinant is that of motions in it alone, and on the axis (a column loaded exactly on its axis stays straight),
-// where none is watched. So the answer is the equilibrium that the rod reaches when its loads grow together from zero;
-// a snap-through ends in load_step_too_small
-// (fam/limit.h tells more).
+// Where the loads are too small for a second equilibrium (Shooting::one_equilibrium), or there is none because the
+// moments are known beforehand, the full load is solved for at once. Beyond, it grows from zero in steps; a step is
+// taken only if Newton converges and no segment end turns by more than largest_turn_rad in it nor lies farther than
+// largest_surprise_rad from where the last steps pointed. Beside a buckling or turning point the branches lie too close
+// to be told apart by their distance, but the sign of the equations' determinant differs from one to the next: a step
+// that changes it is shortened as well, or one that leads on to where it vanishes (scene/branch_watch.h). Where the
+// loads have an energy one that ends unstable is shortened as well, but passes below smallest_bifurcation_step if its
+// symmetry can hold the rod there: in the plane, whose determinant is that of motions in it alone, and on the axis (a
+// column loaded exactly on its axis stays straight), where none is watched. So the answer is the equilibrium that the
+// rod reaches when its loads grow together from zero; a snap-through ends in load_step_too_small (fam/limit.h tells
+// more).
 #pragma once
 
 #include "fam/shooting.h"
@@ -38,7 +38,8 @@ class LoadGrowth {
   // For a rod whose loads are to grow; takes memory where more arcs, segments or spans are asked for than ever before.
   void set(const Shooting<D>& shooting);
 
-  // From no load to the full load. converged, load_step_too_small, not_converged, work_limit or tendon_collapsed.
+  // From no load to the full load. converged, load_step_too_small, not_converged, work_limit or tendon_collapsed; where
+  // the moments are known converged or arc_not_converged.
   scene::Status run(Shooting<D>& shooting);
   // From the shape that the nodes hold at the start of the way; also limit_point.
   scene::Status run_on(Shooting<D>& shooting);
@@ -55,6 +56,7 @@ class LoadGrowth {
  private:
   using Nodes = std::vector<SectionState<D>>;
 
+  scene::Status solve_known_moments(Shooting<D>& shooting);
   // size: of the change of the loads; 1 is too little to make a straight rod critical. at_rest: from no load, where a
   // rod is stable.
   scene::Status grow(Shooting<D>& shooting, double size, bool at_rest);

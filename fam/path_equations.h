@@ -128,6 +128,9 @@ class PathEquations {
     Vector3d tip_position_B_mm = Vector3d::Zero();
   };
   Accuracy accuracy(const PathState& state);
+  // Of each span at this state, whether its arcs swing farther than this or are among those that make the rod
+  // inaccurate: twice as many would lead elsewhere.
+  std::vector<bool> coarse_spans(const PathState& state, double longest_swing_rad);
   // At the arcs' distal ends, without the point loads there; finer_times the arcs, for pictures.
   std::vector<SectionState<3>> states(const PathState& state);
   std::vector<Vector3d> centreline_mm(const PathState& state, int finer_times);
@@ -139,7 +142,8 @@ class PathEquations {
   bool tendon_collapsed() const { return rod().tendon_collapsed(); }
 
  private:
-  double largest_swing_rad(const std::vector<SectionState<3>>& distal) const;
+  double apart(const SectionState<3>& a, const SectionState<3>& b) const;  // in the equations' units
+  double swing_rad(std::size_t span, std::span<const SectionState<3>> distal) const;
   bool evaluate(const PathState& state, const PathBorder& border, bool roughly);
   void add_border(const PathBorder& border);
   Change residual_at(const PathState& state, double parameter);

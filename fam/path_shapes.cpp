@@ -2,6 +2,7 @@
 // are.
 #include "fam/load_length.h"
 #include "fam/path_equations.h"
+#include "fam/rotation.h"
 #include "fam/stations.h"
 
 #include <algorithm>
@@ -11,6 +12,8 @@ namespace {
 
 using path_rows::first_row;
 using path_rows::row_count;
+
+constexpr double to_blame = 0.1;  // a span, of the error of the worst one; chosen, not measured
 
 // The arc that one of another mesh ends with.
 int carried_end(int end_arc, std::span<const int> from, std::span<const int> to) {
@@ -120,15 +123,49 @@ std::vector<Vector3d> PathEquations::positions_mm(const PathState& state) {
 
 // By the moments at the arcs' ends: those that a screw tells of are too large by what the law adds to the curvature,
 // h^2/12 of its third power, times the largest stiffness; strips 1e10 times stiffer on edge took 4096 arcs for 16.
-double PathEquations::largest_swing_rad(const std::vector<SectionState<3>>& distal) const {
-  auto end = distal.begin();
+double PathEquations::swing_rad(std::size_t span, std::span<const SectionState<3>> distal) const {
+  const double length_mm = spans_[span].length_mm() / mesh_.arcs[span];
   double largest = 0;
-  for (std::size_t i = 0; i < spans_.size(); ++i) {
-    const double length_mm = spans_[i].length_mm() / mesh_.arcs[i];
-    for (int k = 0; k < mesh_.arcs[i]; ++k, ++end)
-      largest = std::max(largest, length_mm * swing_rate_per_mm(spans_[i], end->wrench.moment_Nmm));
-  }
+  for (const SectionState<3>& end : distal)
+    largest = std::max(largest, length_mm * swing_rate_per_mm(spans_[span], end.wrench.moment_Nmm));
   return largest;
+}
+
+double PathEquations::apart(const SectionState<3>& a, const SectionState<3>& b) const {
+  const Matrix3d turn = a.rotation_SB * b.rotation_SB.transpose();
+  return rotation_vector(turn).norm() + (a.wrench.force_N - b.wrench.force_N).norm() / shooting_.force_unit() +
+         (a.wrench.moment_Nmm - b.wrench.moment_Nmm).norm() / shooting_.moment_unit();
+}
+
+// By marches with twice the arcs through each span alone, from the state that these arcs have at its distal end.
+std::vector<bool> PathEquations::coarse_spans(const PathState& state, double longest_swing_rad) {
+  set_parameter(state.parameter);
+  fine_.set_load(1);
+  const Marched here = marched(rod(), mesh_.segments, state.nodes);
+  std::vector<double> errors(spans_.size());
+  std::vector<bool> coarse(spans_.size());
+  for (std::size_t i = spans_.size(), k = mesh_.segments.size() - 1, end = here.distal.size(); i-- > 0;) {
+    const std::size_t first = end - static_cast<std::size_t>(mesh_.arcs[i]);
+    coarse[i] = swing_rad(i, std::span(here.distal).subspan(first, end - first)) > longest_swing_rad;
+    while (end > first) {
+      const auto first_of_segment = static_cast<std::size_t>(mesh_.segments[k].first_arc);
+      const std::size_t start = std::max(first, first_of_segment);
+      SectionState<3> arrived = here.distal[end - 1];
+      fine_.march({2 * static_cast<int>(start), 2 * static_cast<int>(end)}, arrived);
+      errors[i] += apart(arrived, start == first_of_segment ? here.arrived[k] : here.distal[start - 1]);
+      if (start == first_of_segment && k > 0) --k;
+      end = start;
+    }
+  }
+  const double worst = *std::max_element(errors.begin(), errors.end());
+  bool pulls = false;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    coarse[i] = coarse[i] || errors[i] >= to_blame * worst;
+    pulls = pulls || (coarse[i] && !spans_[i].tendons.empty());
+  }
+  // Long arcs do not see in time where a tendon's path shrinks to nothing, though no error tells of it.
+  for (std::size_t i = 0; pulls && i < errors.size(); ++i) coarse[i] = coarse[i] || !spans_[i].tendons.empty();
+  return coarse;
 }
 
 // One Newton step, with the factors at hand, towards the solution with twice the arcs; what it does to the positions is
@@ -154,7 +191,11 @@ PathEquations::Accuracy PathEquations::accuracy(const PathState& state) {
     const Vector3d of_arcs = fine.positions_B_mm[2 * k] - here.positions_B_mm[k];
     result.error_mm = std::max(result.error_mm, (of_arcs + there[k] - here.positions_B_mm[k]).norm());
   }
-  result.swing_rad = largest_swing_rad(here.distal);
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < spans_.size(); first += static_cast<std::size_t>(mesh_.arcs[i++])) {
+    const auto distal = std::span(here.distal).subspan(first, static_cast<std::size_t>(mesh_.arcs[i]));
+    result.swing_rad = std::max(result.swing_rad, swing_rad(i, distal));
+  }
   return result;
 }
 

@@ -214,8 +214,16 @@ bool PathStepper::is_small_change(double from, double to) {
 }
 
 bool PathStepper::refine(PathPlace& place) {
+  return refine(place, std::vector<bool>(equations_.mesh().arcs.size(), true));
+}
+
+bool PathStepper::refine_for(const PathPlace& next, PathPlace& place) {
+  return refine(place, equations_.coarse_spans(next.state, longest_path_swing_rad));
+}
+
+bool PathStepper::refine(PathPlace& place, const std::vector<bool>& spans) {
   PathMesh mesh = equations_.mesh();
-  for (int& count : mesh.arcs) count *= 2;
+  for (std::size_t i = 0; i < spans.size(); ++i) mesh.arcs[i] *= spans[i] ? 2 : 1;
   if (std::accumulate(mesh.arcs.begin(), mesh.arcs.end(), 0LL) > max_arcs) return false;
   return change_mesh(place, mesh);
 }

@@ -68,8 +68,10 @@ class PathStepper {
   double parameter_tolerance(double parameter) const;
   // Whether the place is as accurate as asked for, with arcs that do not swing too far.
   bool is_accurate(const PathPlace& place) const;
-  // The place again with twice the arcs; with segments for loads about its own. False: that cannot be done.
+  // The place again with twice the arcs, in all spans or in those that are too coarse where the path goes; with
+  // segments for loads about its own. False: that cannot be done.
   bool refine(PathPlace& place);
+  bool refine_for(const PathPlace& next, PathPlace& place);
   bool recentre(PathPlace& place);
   bool is_within_mesh(const PathPlace& place) const;
 
@@ -94,6 +96,7 @@ class PathStepper {
   std::optional<PathPlace> corrected(PathState guess, const PathBorder::Row& row, Newton newton);
   std::optional<PathPlace> judged(std::optional<PathPlace> place);
   bool change_mesh(PathPlace& place, const PathMesh& mesh);
+  bool refine(PathPlace& place, const std::vector<bool>& spans);
   PathMesh mesh_about(double parameter);
   void set_symmetry(const scene::PathRequest& request);
   bool is_held_by(const PathState& state, scene::Symmetry symmetry) const;

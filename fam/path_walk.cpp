@@ -159,7 +159,7 @@ std::optional<PathPlace> PathWalk::take_step(PathPlace& from) {
     if (length_ > no_struggle) tendon_collapsed_ = false;
     if (!settings_.range.is_watched && !stepper_.is_small_change(from.state.parameter, next->state.parameter)) continue;
     if (stepper_.is_accurate(*next) || from.is_fork) return next;
-    if (!stepper_.refine(from)) {
+    if (!stepper_.refine_for(*next, from)) {
       end(PathStatus::step_too_small, "no solution with twice the arcs");
       return std::nullopt;
     }

@@ -22,6 +22,24 @@ Eigen::Matrix<double, 1, 1> sine_slope(const Eigen::Matrix2d& M) {
   return Eigen::Matrix<double, 1, 1>(0.5 * M.trace());
 }
 
+// The arc from its proximal end to its distal one.
+template <int D>
+BasicArcConstants<D> backwards(BasicArcConstants<D> arc) {
+  arc.length_mm *= -1;
+  arc.angular_compliance *= -1;
+  arc.rest_rotation *= -1;
+  arc.linear_compliance *= -1;
+  arc.rest_translation_mm *= -1;
+  return arc;
+}
+
+template <int D>
+BasicWrench<double, D> loads_at_end(const SpanArcs<D>& span, const Eigen::Matrix<double, D, D>& rotation_SB) {
+  BasicWrench<double, D> loads;
+  span.add_point_loads(rotation_SB, loads);
+  return loads;
+}
+
 }  // namespace
 
 template <int D>
@@ -34,6 +52,7 @@ void Shooting<D>::set(const LoadWay& way, std::span<const int> arcs_per_span, La
   for (const scene::Span& span : way.to)
     least_stiffness_Nmm2_ = std::min(least_stiffness_Nmm2_, least_stiffness_Nmm2(span));
   cut_into_segments();
+  moments_are_known_ = scene::moments_are_known(way.to);
   has_few_arcs_ = one_equilibrium() && rod_.arc_count() >= 4 * static_cast<int>(way.to.size());
   if (has_few_arcs_) set_few_arcs();
 }
@@ -135,6 +154,28 @@ void Shooting<D>::start_unloaded() {
     nodes_[k] = tip;
     rod_.march(segments_[k], tip);
   }
+}
+
+template <int D>
+void Shooting<D>::start_from_clamp() {
+  set_load(1);
+  Node at{Rotation::Identity(), {}};
+  for (const SpanArcs<D>& span : rod_.span_arcs()) span.add_point_loads(at.rotation_SB, at.wrench);
+  std::size_t segment = 0;
+  for (const SpanArcs<D>& span : rod_.span_arcs()) {
+    const BasicArcConstants<D> back = backwards(span.constants);
+    const ElasticSection<false, double, D> section(back);
+    for (int arc = span.first_arc; arc < span.end_arc; ++arc) {
+      BasicScrew<double, D> screw;
+      const BasicMotion<double, D> motion =
+          flat_step(rod_.law(), section, static_cast<const ArcForces<double, D>*>(nullptr), at.wrench, screw);
+      for (int axis = 0; axis < D; ++axis)
+        at.rotation_SB.col(axis) = motion.rotate(Vector<double, D>(at.rotation_SB.col(axis)));
+      if (arc + 1 == span.end_arc) at.wrench.moment_Nmm -= loads_at_end(span, at.rotation_SB).moment_Nmm;
+      if (arc + 1 == segments_[segment].end_arc) nodes_[segment++] = at;
+    }
+  }
+  nodes_.back().wrench = {};
 }
 
 template <int D>

@@ -68,6 +68,8 @@ class Shooting {
   const LoadBounds& bounds() const { return bounds_; }
   // The loads are too small for a second equilibrium; then the one found is stable.
   bool one_equilibrium() const;
+  // All moments are known in the base's axes beforehand (scene::moments_are_known).
+  bool moments_are_known() const { return moments_are_known_; }
   double newton_tolerance() const { return newton_tolerance_; }
   int newton_steps() const { return newton_steps_; }  // since forget_work()
   void forget_work();
@@ -75,6 +77,9 @@ class Shooting {
   void set_load(double factor) { rod_.set_load(factor); }
   // No load: the rest shape.
   void start_unloaded();
+  // The full load, and the shape that a march from the clamp leads to where the moments are known: the same arcs with
+  // a negative length, so that it is off by no more than the law is.
+  void start_from_clamp();
   // From the shape that the rod had, at the start of the way: state_at(arc) at an arc's distal end, without the point
   // loads there.
   template <class StateAt>
@@ -158,6 +163,7 @@ class Shooting {
   std::vector<double> softness_;  // of each segment: length over the root of EI, summed over the planes of bending
   BandSystem<rotations + unknowns - 1, 2 * unknowns - rotations - 1> system_;  // of several segments
   Eigen::Matrix<double, rotations, rotations> slope_;                          // of one segment
+  bool moments_are_known_ = false;
   bool has_few_arcs_ = false;
   std::unique_ptr<Shooting> few_arcs_;  // a quarter of the arcs, where the full load is solved for at once
   std::vector<int> few_counts_;

@@ -14,6 +14,15 @@ bool all_loads_follow(std::span<const Span> spans) {
   });
 }
 
+bool moments_are_known(std::span<const Span> spans) {
+  return std::all_of(spans.begin(), spans.end(), [](const Span& span) {
+    const Wrench &follower = span.follower_load_S, &fixed = span.fixed_load_B;
+    return span.tendons.empty() && follower.force_N.isZero(0) && follower.moment_Nmm.isZero(0) &&
+           fixed.force_N.isZero(0) && span.fixed_force_arms_BS_Nmm.isZero(0) &&
+           span.follower_force_S_N_per_mm.isZero(0) && span.fixed_force_B_N_per_mm.isZero(0);
+  });
+}
+
 namespace {
 
 constexpr double round_off = 2 * std::numeric_limits<double>::epsilon();

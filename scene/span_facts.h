@@ -11,6 +11,10 @@ namespace scene {
 // The march from the tip suffices: all loads, distributed ones included, are in the section frame.
 bool all_loads_follow(std::span<const Span> spans);
 
+// All loads are moments about axes fixed in space, without tendons: no section bears a force, and its moment is known
+// in the base's axes before the shape is. So the rod has one equilibrium, which a march from the clamp leads to.
+bool moments_are_known(std::span<const Span> spans);
+
 // The plane through the undeformed axis in which all loads, rest curvatures and tendons lie: the unit vector (y, z)
 // that spans it with the x axis; (1, 0) where they ask for none. Any plane if all sections have EI_y = EI_z and equal
 // shear stiffnesses, else the x-y or the x-z plane. Tendons lie in a plane if it mirrors them onto each other.

@@ -144,6 +144,27 @@ TEST(ExactReference, MarchAndBoundaryValueAgreeOnMixedFollowerLoads) {
   EXPECT_GT((tip_mm(solve(stiffer(rod))) - tip_mm(boundary)).norm(), 1e-10 * 45);
 }
 
+// Moments fixed in space alone: the march from the clamp and multiple shooting.
+TEST(ExactReference, KnownMomentsMarchFromTheClamp) {
+  scene::Scene rod = uniform_rod(20, 900, 500);
+  stiffness(rod).shear_N = Vector2d(100, 150);
+  rod.sections.push_back({25, scene::Stiffness{300, {400, 200}, 500, {}, 0}, {0.02, -0.01, 0.03}});
+  rod = tip_moment(with(rod, scene::Moment{12, Frame::fixed, {30, -20, 10}}), Frame::fixed, {20, 40, -50});
+  const scene::Equilibrium march = solve(rod), boundary = solve(rod, Way::boundary_value);
+  ASSERT_TRUE(march.converged() && boundary.converged()) << march.message << boundary.message;
+  EXPECT_EQ(std::get<std::string>(march.model[0].second), "march by CVODE from the clamp");
+  ASSERT_EQ(march.stations.size(), boundary.stations.size());
+  for (std::size_t k = 0; k < march.stations.size(); ++k) {
+    const scene::Station &a = march.stations[k], &b = boundary.stations[k];
+    EXPECT_LT((a.X_BS.position_B_mm - b.X_BS.position_B_mm).norm(), 1e-10 * 45);
+    EXPECT_LT((a.X_BS.rotation_BS - b.X_BS.rotation_BS).norm(), 1e-10);
+    EXPECT_LT((a.moment_B_Nmm - b.moment_B_Nmm).norm(), 1e-8);
+    EXPECT_TRUE(a.force_B_N.isZero(0));
+  }
+  EXPECT_LT((march.base().moment_B_Nmm - Vector3d(50, 20, -40)).norm(), 1e-10);
+  EXPECT_GT((tip_mm(solve(stiffer(rod))) - tip_mm(boundary)).norm(), 1e-10 * 45);
+}
+
 TEST(ExactReference, SizeAndStiffnessDoNotMatter) {  // lengths 1e-3 to 1e4 mm, stiffnesses over 12 decades
   const Vector3d wanted = tip_mm(solve(tip_force(uniform_rod(1, 1, 0.7), Frame::fixed, {-3, 8, 6})));
   for (const double L : {1e-3, 1.0, 1e4}) {

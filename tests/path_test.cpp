@@ -4,6 +4,7 @@
 
 #include "fam/bordered_band.h"
 #include "fam/path.h"
+#include "fam/path_walk.h"
 #include "fam/solve.h"
 
 #include <gtest/gtest.h>
@@ -211,6 +212,34 @@ TEST(Path, EndsWhereSolveDoes) {
   curl.scene.sections[0].rest_curvature_per_mm = {0.02, 0, 0.3};
   curl.parameter = PathParameter::rest_curvature_factor;
   expect_end_as_solved(curl);
+}
+
+// A soft section, wound up 25 times, among seven that hardly bend gets the arcs that it takes, they hardly any.
+TEST(Path, ArcsGoWhereTheyAreNeeded) {
+  scene::Scene rod;
+  for (int i = 0; i < 8; ++i) {
+    scene::Section section;
+    section.length_mm = 5;
+    section.cross_section = i == 4 ? slender(700, 1.5) : scene::Stiffness{500, {750, 900}, {}, {}};
+    rod.sections.push_back(section);
+  }
+  rod.loads = {scene::Moment{40, Frame::fixed, {40, 10, -25}}};
+  const PathRequest request = load_path(rod, 0, 1);
+  expect_end_as_solved(request);
+  fam::PathWalk::Settings settings;
+  settings.stops = {1};
+  settings.largest_step = 0.05;
+  settings.most_points = 10'000;
+  settings.most_arcs = 10'000'000;
+  fam::PathWalk walk(request, {}, settings);
+  walk.run();
+  const std::vector<int>& arcs = walk.stepper().equations().mesh().arcs;
+  ASSERT_EQ(arcs.size(), 8U);
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    if (i != 4) {
+      EXPECT_GE(arcs[4], 16 * arcs[i]) << i;  // 128 and 1; all have 128 where each gets more with any
+    }
+  }
 }
 
 // Loads that follow the rod have no energy, but where the parameter takes them away.

@@ -90,6 +90,26 @@ TEST(Span, ThousandsOfLoads) {
   for (const auto& span : spans) ASSERT_EQ(span.follower_load_S.force_N[1], 1);
 }
 
+// Moments fixed in space alone; one load of any other kind and they are not.
+TEST(Span, MomentsThatAreKnownBeforeTheShape) {
+  using scene::Frame;
+  const Eigen::Vector3d some(1, -2, 3);
+  const auto known = [](std::vector<scene::Load> loads) {
+    loads.push_back(scene::Moment{40, Frame::fixed, {5, 6, 7}});
+    return scene::moments_are_known(scene::spans_of(support::uniform_rod(40, support::slender(750, 500), loads)));
+  };
+  EXPECT_TRUE(known({}));
+  EXPECT_TRUE(known({scene::Moment{20, Frame::fixed, some}}));
+  const std::vector<scene::Load> others = {scene::Moment{20, Frame::follower, some},
+                                           scene::Force{20, Frame::fixed, some},
+                                           scene::Force{20, Frame::follower, some},
+                                           scene::DistributedForce{0, 40, Frame::fixed, some},
+                                           scene::DistributedForce{0, 40, Frame::follower, some},
+                                           scene::Force{40, Frame::fixed, some, {1, 1}},
+                                           scene::Tendon{{1, 0}, 1, 40}};
+  for (const scene::Load& load : others) EXPECT_FALSE(known({load})) << load.index();
+}
+
 TEST(Span, SymmetryOfLoadsAndRestShape) {
   using scene::Symmetry;
   const auto symmetry = [](const std::vector<scene::Load>& loads) {
