@@ -16,7 +16,7 @@ using UnknownKind = scene::Unknown::Kind;
 
 // Chosen, not measured.
 constexpr double model_share = 0.03;  // of the smallest standard deviation, that the model may be off by
-constexpr double least_tolerance_over_L = 1e-8, most_tolerance_over_L = 1e-6;
+constexpr double least_tolerance_over_L = 1e-8, most_tolerance_over_L = 1e-5;
 constexpr double least_place_over_L = 1e-9;                           // at the clamp itself no load can stand
 constexpr double least_factor = 0.01;                                 // of a stiffness
 constexpr int first_reserved_arcs = 32, most_reserved_arcs = 65'536;  // memory for 1024 costs as much as a solve

@@ -323,7 +323,8 @@ TEST(Estimator, LooksElsewhereWhereTheFirstMinimumDoesNotFit) {
   EXPECT_FALSE(held.converged() && held.fits);
 }
 
-// From one span to the next: the load walks past a border of sections, at 15 mm, to where it stood.
+// From one span to the next: the load walks past a border of sections, at 15 mm, to where it stood. Twin: in a model
+// stiffer by 5 % the load is another one.
 TEST(Estimator, PlacesAreFoundBeyondABorderOfSections) {
   scene::Scene truth = rod_under({force(24, {0, 0.6, 0.2})});
   truth.sections[0].length_mm = 15;
@@ -341,6 +342,11 @@ TEST(Estimator, PlacesAreFoundBeyondABorderOfSections) {
   ASSERT_TRUE(found.converged()) << found.message;
   EXPECT_NEAR(found.mean[2], 24, 0.05);
   EXPECT_NEAR(found.mean[0], 0.6, 2e-3);
+  EXPECT_TRUE(found.fits);
+  problem.scenes[0].scene = support::stiffer(problem.scenes[0].scene);
+  const Estimate stiffer = Estimator(problem).estimate();
+  ASSERT_TRUE(stiffer.converged()) << stiffer.message;
+  EXPECT_GT(std::abs(stiffer.mean[0] - 0.6), 2e-2);
 }
 
 TEST(Estimator, AStreamTakesNoMemory) {
