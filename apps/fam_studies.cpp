@@ -13,6 +13,7 @@
 #include "studies/stability/maps.h"
 #include "studies/sweep/command.h"
 #include "studies/third_party/command.h"
+#include "studies/work_precision/instructions.h"
 
 #include <fmt/format.h>
 
@@ -160,6 +161,10 @@ int main(int argc, char** argv) {
   cell->add_option("x", x, "Value on the map's x axis")->required();
   cell->add_option("y", y, "Value on the map's y axis; left out where that is a number of arcs or elements");
 
+  std::string counted;
+  CLI::App* count = app.add_subcommand("counted-solves", "What `work-precision` runs under callgrind");
+  count->group("")->add_option("list", counted)->required();
+
   return apps::run(app, argc, argv, [&] {
     if (list) {
       print_list();
@@ -177,6 +182,7 @@ int main(int argc, char** argv) {
       fmt::print("{}", scene::write_scene(studies::cell_scene(map, x, y)));
       return apps::exit_solved;
     }
+    if (count->parsed()) return studies::run_counted_solves(counted, arguments.options.cases);
     return chosen();
   });
 }

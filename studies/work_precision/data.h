@@ -41,10 +41,18 @@ struct WorkScene {
   bool has_tendons = false;
 };
 
+// One bare solve, memory and caches warm. `scene` and `folder` as of WorkScene.
+struct CountedSolve {
+  std::string scene, folder, series, model, resolution;
+  double target = 0;        // tip error over L, that it is within
+  double instructions = 0;  // NaN where they were not counted
+};
+
 struct WorkData {
   std::vector<WorkScene> scenes;
   std::vector<WorkPoint> points;
   std::vector<AimRow> aims;
+  std::vector<CountedSolve> counted;  // studies/work_precision/instructions.h
 
   // The resolutions of a series on a scene, in order of rising effort.
   std::vector<const WorkPoint*> of(const std::string& scene, const std::string& series, const std::string& model) const;

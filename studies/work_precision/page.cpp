@@ -4,6 +4,7 @@
 #include "studies/report/table.h"
 #include "studies/work_precision/competitors.h"
 #include "studies/work_precision/data.h"
+#include "studies/work_precision/instructions.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -118,6 +119,7 @@ void set_times(Page& page, const WorkData& data) {
     page.set_time("times_" + key(group), times_table(data, group));
     page.set_time("ratios_" + key(group), ratios_table(data, group));
   }
+  page.set_time("instructions", instructions_table(data));
   page.set_time("aims", aims_table(data));
   page.set_time("machine", machine_line());
   const Spread stepping = cost_of_stepping(data);

@@ -4,6 +4,7 @@
 #include "studies/report/provenance.h"
 #include "studies/work_precision/competitors.h"
 #include "studies/work_precision/data.h"
+#include "studies/work_precision/instructions.h"
 
 #include <fmt/format.h>
 
@@ -238,6 +239,7 @@ std::map<std::string, std::string> work_precision_tables(const WorkData& data) {
           {"aims.csv", aims_csv(data)},
           {"timing.csv", timing_csv(data)},
           {"timing_aims.csv", timing_aims_csv(data)},
+          {"timing_instructions.csv", instructions_csv(data)},
           {"timing_to_accuracy.csv", time_to_csv(data)}};
 }
 

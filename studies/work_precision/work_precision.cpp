@@ -10,6 +10,7 @@
 #include "studies/scenes/cases.h"
 #include "studies/work_precision/competitors.h"
 #include "studies/work_precision/data.h"
+#include "studies/work_precision/instructions.h"
 
 #include <fmt/format.h>
 
@@ -69,13 +70,15 @@ class WorkPrecision {
  public:
   explicit WorkPrecision(const StudyOptions& options)
       : options_(options),
-        data_{work_scenes(options.cases), {}, {}},
-        progress_("work-precision", data_.scenes.size() + 1, options.progress) {}
+        data_{work_scenes(options.cases), {}, {}, {}},
+        progress_("work-precision", data_.scenes.size() + 2, options.progress) {}
 
   void run() {
     for (WorkScene& scene : data_.scenes) solve_scene(scene);
     progress_.step("aims");
     data_.aims = measured_aims(options_);
+    progress_.step("instructions");
+    if (!options_.quick) data_.counted = counted_solves(data_);
     write();
   }
 

@@ -1,0 +1,55 @@
+// Instructions of solves as `fam-studies work-precision` has them counted by callgrind.
+#include "commands.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace {
+
+using namespace commands;
+
+// By number of the line, of a list of solves.
+std::map<int, double> counted(const std::string& list) {
+  const std::filesystem::path folder = scratch() / "counted";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "list") << list;
+  const std::string valgrind = "valgrind --tool=callgrind --collect-atstart=no --callgrind-out-file='" +
+                               (folder / "out").string() + "' " + fam_studies;
+  const Outcome outcome = run(valgrind, "counted-solves '" + (folder / "list").string() + "'");
+  EXPECT_EQ(outcome.exit_status, 0) << outcome.err;
+  std::map<int, double> counts;
+  for (int k = 0; std::filesystem::exists(folder / ("out." + std::to_string(k + 1))); ++k) {
+    const std::string text = contents(folder / ("out." + std::to_string(k + 1)));
+    EXPECT_NE(text.find("Client Request: " + std::to_string(k) + "\n"), std::string::npos);
+    counts[k] = std::stod(text.substr(text.find("totals: ") + 8));
+  }
+  return counts;
+}
+
+// A march of twice the arcs takes twice the instructions (1.98 measured), one of as many the same; shooting with the
+// same steps 15 times as many.
+TEST(Instructions, GrowWithTheArcs) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "valgrind and the sanitizers exclude each other";
+#endif
+  const auto count = counted(
+      "study1,S4_follower,fam sixth_order,Reissner,64 arcs\n"
+      "study1,S4_follower,fam sixth_order,Reissner,128 arcs\n"
+      "study1,S4_follower,fam sixth_order,Reissner,64 arcs\n"
+      "study1,S4_follower,rk4 shooting,Reissner,64 steps\n");
+  ASSERT_EQ(count.size(), 4U);
+  EXPECT_NEAR(count.at(1) / count.at(0), 2, 0.1);
+  EXPECT_NEAR(count.at(2) / count.at(0), 1, 0.02);
+  EXPECT_GT(count.at(3) / count.at(0), 4);
+}
+
+TEST(Instructions, OfWhoDoesNotCompete) {
+  std::ofstream(scratch() / "list") << "study1,S4_follower,fam sixth_order,Reissner,65 arcs\n";
+  const Outcome outcome = run(fam_studies, "counted-solves " + (scratch() / "list").string());
+  EXPECT_NE(outcome.exit_status, 0);
+  EXPECT_NE(outcome.err.find("no competitor fam sixth_order, 65 arcs"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
