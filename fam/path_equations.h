@@ -130,7 +130,7 @@ class PathEquations {
   Accuracy accuracy(const PathState& state);
   // Of each span at this state, whether its arcs swing farther than this or are among those that make the rod
   // inaccurate: twice as many would lead elsewhere.
-  std::vector<bool> coarse_spans(const PathState& state, double longest_swing_rad);
+  std::vector<bool> coarse_spans(const PathState& state, double allowed_swing_rad);
   // At the arcs' distal ends, without the point loads there; finer_times the arcs, for pictures.
   std::vector<SectionState<3>> states(const PathState& state);
   std::vector<Vector3d> centreline_mm(const PathState& state, int finer_times);

@@ -138,7 +138,7 @@ double PathEquations::apart(const SectionState<3>& a, const SectionState<3>& b) 
 }
 
 // By marches with twice the arcs through each span alone, from the state that these arcs have at its distal end.
-std::vector<bool> PathEquations::coarse_spans(const PathState& state, double longest_swing_rad) {
+std::vector<bool> PathEquations::coarse_spans(const PathState& state, double allowed_swing_rad) {
   set_parameter(state.parameter);
   fine_.set_load(1);
   const Marched here = marched(rod(), mesh_.segments, state.nodes);
@@ -146,7 +146,7 @@ std::vector<bool> PathEquations::coarse_spans(const PathState& state, double lon
   std::vector<bool> coarse(spans_.size());
   for (std::size_t i = spans_.size(), k = mesh_.segments.size() - 1, end = here.distal.size(); i-- > 0;) {
     const std::size_t first = end - static_cast<std::size_t>(mesh_.arcs[i]);
-    coarse[i] = swing_rad(i, std::span(here.distal).subspan(first, end - first)) > longest_swing_rad;
+    coarse[i] = swing_rad(i, std::span(here.distal).subspan(first, end - first)) > allowed_swing_rad;
     while (end > first) {
       const auto first_of_segment = static_cast<std::size_t>(mesh_.segments[k].first_arc);
       const std::size_t start = std::max(first, first_of_segment);

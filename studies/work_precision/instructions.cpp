@@ -152,7 +152,6 @@ int run_counted_solves(const std::filesystem::path& list, const std::filesystem:
 }
 
 std::string instructions_table(const WorkData& data) {
-  if (data.counted.empty()) return "Not counted.";
   std::vector<std::string> head{"thousand instructions"};
   for (const WorkGroup group : work_groups)
     for (const double target : counted_targets) head.push_back(title(group) + ", " + target_text(target));
