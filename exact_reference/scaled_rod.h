@@ -62,7 +62,7 @@ struct ScaledRod {
   double load_size() const;
   bool has_fixed_load() const;  // any load with components in the base frame, gravity included
   // Moments fixed in space are the only loads, so that the internal ones are known in the base frame before the shape
-  // is, and there is one equilibrium.
+  // is, and there is one equilibrium. Told apart here and not by scene::moments_are_known, which FAM goes by.
   bool moments_are_known() const;
   bool has_tendon() const;
   bool has_fixed_moment() const;                                                   // not conservative in space

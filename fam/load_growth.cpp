@@ -149,7 +149,8 @@ bool LoadGrowth<D>::gives_up(const Shooting<D>& shooting, double step) {
 
 template <int D>
 std::string LoadGrowth<D>::message() const {
-  if (end_.status == scene::Status::arc_not_converged) return "the arcs are too long for the turns of the rod";
+  if (end_.status == scene::Status::arc_not_converged)
+    return "the arcs are too long for the turns of the rod, or these too many for round-off";
   if (end_.status == scene::Status::not_converged) return "Newton did not converge at the loads it starts from";
   std::ostringstream text;
   if (end_.newton_steps > 0) text << "work limit: " << end_.newton_steps << " Newton steps and only ";
@@ -188,8 +189,8 @@ scene::Status LoadGrowth<D>::run(Shooting<D>& shooting) {
 template <int D>
 scene::Status LoadGrowth<D>::solve_known_moments(Shooting<D>& shooting) {
   load_factor_ = 1;
-  shooting.start_from_clamp();
-  return end_.status = shooting.solve_from_here() ? scene::Status::converged : scene::Status::arc_not_converged;
+  const bool solved = shooting.start_from_clamp() && shooting.solve_from_here();
+  return end_.status = solved ? scene::Status::converged : scene::Status::arc_not_converged;
 }
 
 // A fold is where steps lead nowhere and the determinant has all but vanished.

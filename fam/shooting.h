@@ -78,8 +78,9 @@ class Shooting {
   // No load: the rest shape.
   void start_unloaded();
   // The full load, and the shape that a march from the clamp leads to where the moments are known: the same arcs with
-  // a negative length, so that it is off by no more than the law is.
-  void start_from_clamp();
+  // a negative length, so that it is off by no more than the law is. False: the march back misses a segment's end by
+  // more than a quarter turn, the arcs are too long.
+  bool start_from_clamp();
   // From the shape that the rod had, at the start of the way: state_at(arc) at an arc's distal end, without the point
   // loads there.
   template <class StateAt>

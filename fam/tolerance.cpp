@@ -92,9 +92,9 @@ bool are_apart(const Problem& problem, const Run& fewer, const Run& more) {
 constexpr int collapsing_arcs = 4096;
 
 // Whether arcs twice as many cannot help: two runs failed at the same load, or the work is used up.
-bool is_the_end(const Problem& problem, const Run& last, const Run& run) {
+bool is_the_end(const Run& last, const Run& run) {
   const bool march = run.engine.is_march();
-  if (scene::moments_are_known(problem.spans())) return false;
+  if (run.status == Status::arc_not_converged) return false;
   if (march && run.status == Status::tendon_collapsed && run.arc_count() > collapsing_arcs) return true;
   if (run.status == Status::work_limit && run.arc_count() > most_arcs_marched / most_newton_steps) return true;
   if (last.converged() || march) return false;
@@ -190,7 +190,7 @@ Found solve_to_tolerance(const Problem& problem, Run& one, Run& another) {
     refine(problem, first, next, *coarse, *fine, !apart);
     const double ratio = static_cast<double>(next) / multiple;
     int after = 2 * next;
-    if (!fine->converged() && is_the_end(problem, *coarse, *fine)) return {fine, coarse, fine->status};
+    if (!fine->converged() && is_the_end(*coarse, *fine)) return {fine, coarse, fine->status};
     if (coarse->converged() && fine->converged()) {
       const Run* run = ladder.sufficient(*coarse, *fine, ratio);
       apart = times_apart < most_apart && are_apart(problem, *coarse, *fine);

@@ -56,6 +56,25 @@ TEST(Certificate, SeesAStifferRod) {
   }
 }
 
+// Moments fixed in space alone leave one equilibrium, however large (the equations from the clamp are an initial value
+// problem); with a force beside them, or a moment that follows, there may be others.
+TEST(Certificate, KnownMomentsLeaveOneEquilibrium) {
+  const std::vector<scene::Load> moments = {scene::Moment{20, scene::Frame::fixed, {30, -20, 10}},
+                                            scene::Moment{40, scene::Frame::fixed, {20, 140, -90}}};
+  const auto certified = [&](const std::vector<scene::Load>& more) {
+    std::vector<scene::Load> loads = moments;
+    loads.insert(loads.end(), more.begin(), more.end());
+    const scene::Scene scene = support::uniform_rod(40, scene::Stiffness{500, {750, 300}, {}, {}, 0}, loads);
+    return certify(scene, by_fam(scene, 1e-6), 1e-9);
+  };
+  const Certificate alone = certified({});
+  EXPECT_TRUE(alone.found) << alone.message;
+  EXPECT_LE(alone.position, 2e-6);
+  EXPECT_EQ(alone.branch, Certificate::Branch::alone);
+  EXPECT_NE(certified({scene::Force{40, scene::Frame::fixed, {-0.1, 0.2, 0}}}).branch, Certificate::Branch::alone);
+  EXPECT_NE(certified({scene::Moment{30, scene::Frame::follower, {1, 2, 3}}}).branch, Certificate::Branch::alone);
+}
+
 // Equilibria that plain shooting found on these scenes, 0.2 to 1.8 L from those that the growing load leads to (exact
 // reference).
 TEST(Certificate, DoubtsEquilibriaOnOtherBranches) {
