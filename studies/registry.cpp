@@ -29,7 +29,7 @@ namespace studies {
   row(third_party, "What does a finite element code say that we did not write?", "2 min", false) \
   row(population, "What could have made the printed numbers?", "3 min", false) \
   row(sensing, "What does the rod touch, and how sure are we?", "40 s", false) \
-  row(limits, "Why is there no answer?", "50 min", true) \
+  row(limits, "Why is there no answer?", "30 min", true) \
   row(walks, "Does a kept solver stay on its branch?", "15 min", true) \
   row(campaign, "How rarely is an answer wrong?", "1 h", true) \
   row(random, "Is an answer ever wrong without saying so?", "30 min", true)

@@ -50,6 +50,9 @@ TEST(Instructions, OfWhoDoesNotCompete) {
   const Outcome outcome = run(fam_studies, "counted-solves " + (scratch() / "list").string());
   EXPECT_NE(outcome.exit_status, 0);
   EXPECT_NE(outcome.err.find("no competitor fam sixth_order, 65 arcs"), std::string::npos) << outcome.err;
+  const Outcome nothing = run(fam_studies, "counted-solves " + (scratch() / "no_such_list").string());
+  EXPECT_NE(nothing.exit_status, 0);
+  EXPECT_NE(nothing.err.find("no_such_list: cannot be read"), std::string::npos) << nothing.err;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "studies/work_precision/competitors.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,12 +78,6 @@ std::map<std::size_t, double> counts_in(const std::filesystem::path& folder) {
   return counts;
 }
 
-std::filesystem::path own_folder() {
-  std::string name = (std::filesystem::temp_directory_path() / "instructions_XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
-  return name;
-}
-
 const Competitor& named(const std::vector<Competitor>& all, const std::vector<std::string>& cells) {
   const auto found = std::find_if(all.begin(), all.end(), [&](const Competitor& c) {
     return c.series == cells[2] && c.model == cells[3] && c.resolution == cells[4];
@@ -111,7 +106,10 @@ Spread instructions_of(const WorkData& data, WorkGroup group, const Contestant& 
 std::vector<CountedSolve> counted_solves(const WorkData& data) {
   if (!has_valgrind()) return {};
   std::vector<CountedSolve> solves = to_be_counted(data);
-  const std::filesystem::path folder = own_folder(), self = std::filesystem::read_symlink("/proc/self/exe");
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("fam_instructions_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
   {
     std::ofstream list(folder / "list");
     for (const CountedSolve& solve : solves) list << line_of(solve) << '\n';
@@ -133,6 +131,7 @@ std::vector<CountedSolve> counted_solves(const WorkData& data) {
 int run_counted_solves(const std::filesystem::path& list, const std::filesystem::path& cases) {
   const std::vector<Competitor> all = competitors(FeMeshes::most);
   std::ifstream file(list);
+  if (!file) throw std::runtime_error(list.string() + ": cannot be read");
   std::size_t number = 0;
   for (std::string line; std::getline(file, line); ++number) {
     std::vector<std::string> cells;
