@@ -256,9 +256,12 @@ bool Shooting<D>::evaluate_system(bool keep_factors, bool& mismatches_are_small)
 
 // All segments together. Where no solution is near, steps with fresh derivatives halve at best and then jump; on the
 // way two of them that do not fall by half are the end. Where rotations are as good as asked for, it is round-off.
+// Beside a critical point a step along the motion that costs next to nothing changes the derivatives by orders of
+// magnitude: a step's size tells how far the solution is only where the last ones' determinant was about the same.
 template <int D>
 bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const OnTheWay* way) {
   bool kept_last = keep_factors;
+  double last_log = keep_factors ? system_.log_determinant() : std::numeric_limits<double>::quiet_NaN();
   int stalled = 0;
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
@@ -273,10 +276,12 @@ bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const OnT
     if (stalls && turn_rad <= tolerance) return small;
     if (way && stalls && !kept_last && ++stalled == most_stalled_steps) return false;
     kept_last = keep_factors;
+    const bool tells = !(std::abs(system_.log_determinant() - last_log) > most_log_change);
+    last_log = system_.log_determinant();
     const double shrinkage = std::isfinite(last) ? size / last : 0.1;
-    if (size * (keep_factors ? shrinkage : newton_curvature * size) <= tolerance) return small;
+    if (tells && size * (keep_factors ? shrinkage : newton_curvature * size) <= tolerance) return small;
     const bool may_keep = keep_factors || (way && !scene::has_fallen(way->start, determinant()));
-    keep_factors = may_keep && slopes_last(keep_factors, size, last);
+    keep_factors = tells && may_keep && slopes_last(keep_factors, size, last);
     last = size;
   }
   return false;

@@ -80,6 +80,23 @@ TEST(SurvivorsFam, TendonsThatAllButCollapse) {
   }
 }
 
+// Columns bent far, round but for next to nothing: a step along the azimuth changes the derivatives' determinant by a
+// factor of 30, and Newton's method with kept ones ended 5e-4, 1.6e-3 and 5.2e-3 L from the equilibrium at estimates of
+// 1e-4, 4e-6 and 5e-5 L. Tips over L: equilibria of the exact reference's equations to 1e-7 L (its certificate of FAM's
+// answers at 1e-6 L; its own path finds but the first).
+TEST(SurvivorsFam, AzimuthsThatNextToNothingHolds) {
+  const std::pair<std::uint64_t, Vector3d> columns[] = {{7'015, {-0.3855129, -0.5900017, 0.0373110}},
+                                                        {9'035, {0.1008261, -0.1971610, -0.7762806}},
+                                                        {92'695, {-0.3121702, -0.5398713, -0.3509730}}};
+  for (const auto& [index, exact_over_L] : columns) {
+    const Scene scene = studies::random_scene(studies::campaign_seed(1, index));
+    const double length_mm = scene::length_mm(scene);
+    EXPECT_LT((tip(by_fam(scene, 1e-4 * length_mm)) / length_mm - exact_over_L).norm(), 1e-4) << index;
+    const Vector3d stiffer_mm = tip(by_fam(support::stiffer(scene), 1e-4 * length_mm));
+    EXPECT_GT((stiffer_mm / length_mm - exact_over_L).norm(), 1e-3) << index;
+  }
+}
+
 // Follower loads turn with the section: its direction must be as good as the tolerance over L, where the tip's place
 // alone would be good enough sooner.
 TEST(SurvivorsFam, DirectionsOfFollowerLoadsKeepTheTolerance) {
