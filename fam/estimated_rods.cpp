@@ -17,9 +17,9 @@ using UnknownKind = scene::Unknown::Kind;
 // Chosen, not measured.
 constexpr double model_share = 0.03;  // of the smallest standard deviation, that the model may be off by
 constexpr double least_tolerance_over_L = 1e-8, most_tolerance_over_L = 1e-5;
-constexpr double least_place_over_L = 1e-9;                           // at the clamp itself no load can stand
-constexpr double least_factor = 0.01;                                 // of a stiffness
-constexpr int first_reserved_arcs = 32, most_reserved_arcs = 65'536;  // memory for 1024 costs as much as a solve
+constexpr double least_place_over_L = 1e-9;  // at the clamp itself no load can stand
+constexpr double least_factor = 0.01;        // of a stiffness
+constexpr int first_reserved_arcs = 32;      // memory for 1024 costs as much as a solve
 
 // How far the rod is off, as a whole, where it is off by this measurement's deviation.
 double deviation_mm(const scene::Measurement& measurement, const scene::Scene& scene) {
@@ -88,7 +88,7 @@ double within_bounds(const Unknown& unknown, const scene::EstimationProblem& pro
 EstimatedRods::EstimatedRods(const scene::EstimationProblem& problem, const Options& options)
     : now_(problem), values_(problem.unknowns.size()), options_(options), solvers_(problem.scenes.size()) {
   if (options_.arcs == 0 && !(options_.tolerance_mm > 0)) options_.tolerance_mm = model_tolerance_mm(problem);
-  options_.reserved_arcs = std::min(options_.reserved_arcs, first_reserved_arcs);
+  options_.reserved_arcs = 0;
   for (const scene::MeasuredScene& measured : problem.scenes) sections_.push_back(measured.scene.sections);
   for (const Unknown& unknown : problem.unknowns) has_sections_ |= is_of_section(unknown);
 }
@@ -134,6 +134,13 @@ void EstimatedRods::set_values(Solver& solver, std::size_t scene) const {
   }
 }
 
+bool EstimatedRods::reserve() {
+  if (options_.reserved_arcs > 0) return false;
+  options_.reserved_arcs = first_reserved_arcs;
+  for (std::optional<Solver>& solver : solvers_) solver.reset();
+  return true;
+}
+
 bool EstimatedRods::make(std::size_t scene) {
   auto made = Solver::make(now_.scenes[scene].scene, options_);
   if (const auto* refusal = std::get_if<Refusal>(&made)) {
@@ -149,7 +156,8 @@ bool EstimatedRods::solve(std::size_t scene, Solver::Start start) {
   if (solvers_[scene]) set_values(*solvers_[scene], scene);
   else if (!make(scene)) return false;
   Solver::Outcome outcome = solvers_[scene]->solve(start);
-  while (outcome.status == Status::tolerance_not_met && options_.reserved_arcs < most_reserved_arcs) {
+  while (outcome.status == Status::tolerance_not_met && options_.reserved_arcs > 0 &&
+         options_.reserved_arcs < most_unreserved_arcs) {
     options_.reserved_arcs *= 2;
     if (!make(scene)) return false;
     outcome = solvers_[scene]->solve();

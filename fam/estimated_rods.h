@@ -27,6 +27,10 @@ class EstimatedRods {
   // What was put last.
   void put_into(scene::EstimationProblem& problem) const;
 
+  // From now on solvers take memory as they are made, for as many arcs as loads like these need. True: those that stand
+  // are lost, and with them their solutions.
+  bool reserve();
+
   // A solver that reserves too few arcs is made anew.
   bool solve(std::size_t scene, Solver::Start start);
   // To the solution before the last one.

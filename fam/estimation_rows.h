@@ -32,6 +32,8 @@ class EstimationRows {
 
   void bound(Eigen::VectorXd& x) const;
 
+  bool reserve() { return rods_.reserve(); }  // as EstimatedRods
+
   // Solves the rods at x; false: why, in status() and message().
   bool solve(const Eigen::VectorXd& x, Solver::Start start);
   // Those that the last solve() moved, to their solutions before it. False: one has lost it.

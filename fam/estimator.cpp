@@ -284,6 +284,7 @@ Estimate Estimator::estimate() {
 }
 
 const Estimate& Estimator::track() {
+  if (impl_->rows.reserve()) impl_->solved_at_x = false;
   return impl_->track();
 }
 

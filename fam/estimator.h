@@ -55,8 +55,8 @@ class Estimator {
   const scene::EstimationProblem& problem() const;
   void set_measurement(std::size_t scene, std::size_t measurement, const scene::Measurement& value);
   Estimate estimate();
-  // The same where it is kept: for streams; takes no memory once a rod with these loads has been solved (directions
-  // that cannot be observed and failures do).
+  // The same where it is kept, for streams: the first takes the memory of the next ones, which take none once a rod
+  // with these loads has been solved (directions that cannot be observed and failures do).
   const Estimate& track();
 
  private:

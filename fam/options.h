@@ -9,6 +9,7 @@
 namespace fam {
 
 constexpr int max_arcs = 1'000'000;
+constexpr int most_unreserved_arcs = 65'536;
 
 struct Options {
   Law law = Law::automatic;                         // automatic: sixth_order
@@ -29,15 +30,16 @@ struct Options {
   // the model; then the answer costs little beside the solve.
   bool whole_rod = true;
 
-  // Of fam::solve, where the growing load meets a fold: true, the next equilibrium under the full load on the rod's path
-  // that is stable (the next at all where the loads have no energy), in place of limit_point.
+  // Of fam::solve, where the growing load meets a fold: true, the next equilibrium under the full load on the rod's
+  // path that is stable (the next at all where the loads have no energy), in place of limit_point.
   bool after_snap = false;
 
   // Of fam::solve, where the growing load gets stuck: false leaves out the search for the fold (up to seconds), and the
   // status is the growth's own. Without effect where after_snap asks for more.
   bool locate_limit = true;
 
-  // Of a Solver: arcs that memory is taken for, those of the estimate's finer run included, 1..max_arcs.
+  // Of a Solver: arcs that memory is taken for, those of the estimate's finer run included, 1..max_arcs. 0: for none;
+  // solves take what they need, for 65 536 arcs at most. A single solve is faster so.
   int reserved_arcs = 1024;
 
   // Of fam::solve_batch: threads that share the rows; 0: as many as the machine runs at once.

@@ -44,13 +44,14 @@ Solver::Impl::Impl(const scene::Scene& wanted, const Options& wanted_options) : 
 }
 
 void Solver::Impl::reserve() {
+  if (options.reserved_arcs == 0) return;
   Room room{static_cast<std::size_t>(options.reserved_arcs), scene.sections.size(), 0};
   for (const scene::Load& load : scene.loads) {
     room.spans += 2;
     if (scene::tendon_of(load)) ++room.tendons;
   }
   room.arcs = std::max(room.arcs, 2 * room.spans);
-  reserved_arcs = std::max(static_cast<int>(room.arcs), 2 * std::min(options.arcs, max_arcs));
+  most_arcs = std::max(static_cast<int>(room.arcs), 2 * std::min(options.arcs, max_arcs));
   const Law law = attempts[0].problem.choice().law;
   for (Attempt& attempt : attempts) {
     attempt.problem.reserve(scene, room);
@@ -119,7 +120,7 @@ Solver::Outcome Solver::Impl::solve(Start start) {
   Status last = Status::tolerance_not_met;
   double last_load = -1;
   for (;; last_load = engine.load_factor()) {
-    if (std::accumulate(arcs.begin(), arcs.end(), 0LL) > reserved_arcs) return {last, 0, 0, message_of(last)};
+    if (std::accumulate(arcs.begin(), arcs.end(), 0LL) > most_arcs) return {last, 0, 0, message_of(last)};
     last = solve_with_arcs(attempt, on);
     if (last == Status::converged) break;
     const double load = engine.load_factor();  // 0 or 1: not the load is at fault, but the arcs are too long
@@ -140,7 +141,7 @@ bool Solver::Impl::refine(Attempt& attempt) {
   const double allowed_rad = allowed_swing_rad(problem.choice().law, problem.tolerance_mm() / problem.length_mm());
   const double times = std::ceil(attempt.run.extent(problem).swing_rad / allowed_rad);
   if (!(times > 1)) return true;
-  if (!(times * attempt.run.arc_count() <= reserved_arcs)) return false;
+  if (!(times * attempt.run.arc_count() <= most_arcs)) return false;
   spare[0].solve(problem, attempt.run.arcs, static_cast<int>(times), &attempt.run);
   if (spare[0].converged()) std::swap(attempt.run, spare[0]);
   return true;

@@ -34,14 +34,14 @@ struct Parameter {
   int component = 0;
 };
 
-// Memory is taken in make() only: for Options::reserved_arcs, the estimate's finer run included; loads that need more
-// end in tolerance_not_met. (Where more arcs than reserved are asked for, make() takes what its loads need to be
-// solved; estimates, derivatives and loads of other kinds take more when they are asked for first.) Arcs are chosen
-// anew in solve() by a priori bounds; error_estimate_mm() proves the tolerance. make and set_... throw
-// scene::SceneError on wrong input (index, kind, NaN, a negative tension, a place off the rod) and leave the solver as
-// it was. Getters give NaN before a converged solve, and for an s or an index out of range; they speak of the solution
-// found last, which later set_... do not change. Different solvers may be used by different threads at once; one solver
-// only by one, getters included.
+// Memory is taken in make() only, unless Options::reserved_arcs is 0: for so many arcs, the estimate's finer run
+// included; loads that need more end in tolerance_not_met. (Where more arcs than reserved are asked for, make() takes
+// what its loads need to be solved; estimates, derivatives and loads of other kinds take more when they are asked for
+// first.) Arcs are chosen anew in solve() by a priori bounds; error_estimate_mm() proves the tolerance. make and
+// set_... throw scene::SceneError on wrong input (index, kind, NaN, a negative tension, a place off the rod) and leave
+// the solver as it was. Getters give NaN before a converged solve, and for an s or an index out of range; they speak of
+// the solution found last, which later set_... do not change. Different solvers may be used by different threads at
+// once; one solver only by one, getters included.
 class Solver {
  public:
   // Refuses what the law cannot solve (published).

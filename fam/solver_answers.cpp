@@ -62,7 +62,7 @@ bool Solver::Impl::take_states_for_changes() {
   const double allowed_rad = allowed_swing_rad(problem.choice().law, problem.tolerance_mm() / problem.length_mm());
   const double times = std::ceil(swing_of_changes_rad() / allowed_rad);
   if (!(times > 1)) return true;
-  if (!(times * run.arc_count() <= reserved_arcs)) return false;
+  if (!(times * run.arc_count() <= most_arcs)) return false;
   spare[0].solve(problem, run.arcs, static_cast<int>(times), &run);
   if (!spare[0].converged()) return false;
   finer.set(problem, spare[0]);
@@ -89,7 +89,7 @@ Response* Solver::Impl::prepared_response() {
 
 // As solve() estimates: with a fixed number of arcs by the law's order, else with the first run's safety.
 double Solver::Impl::estimate_mm() {
-  if (solved->run.arc_count() > reserved_arcs / 2) return std::numeric_limits<double>::infinity();
+  if (solved->run.arc_count() > most_arcs / 2) return std::numeric_limits<double>::infinity();
   const double by_doubling_mm = estimate_by_doubling_mm(solved->problem, solved->run, spare[0]);
   return options.arcs > 0 ? by_doubling_mm : coarse_safety * by_doubling_mm;
 }
@@ -133,7 +133,7 @@ std::optional<bool> Solver::stable() const {
   if (!impl_->solved) return std::nullopt;
   const auto& [problem, run] = *impl_->solved;
   if (!impl_->stable) {
-    impl_->stable = is_stable(problem, run, nullptr, impl_->spare[0], impl_->spare[1], impl_->reserved_arcs);
+    impl_->stable = is_stable(problem, run, nullptr, impl_->spare[0], impl_->spare[1], impl_->most_arcs);
   }
   return *impl_->stable;
 }

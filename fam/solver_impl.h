@@ -23,7 +23,7 @@ struct Attempt {
 struct Solver::Impl {
   scene::Scene scene;
   Options options;
-  int reserved_arcs = 0;
+  int most_arcs = most_unreserved_arcs;
   std::array<Attempt, 2> attempts;
   Attempt* solved = nullptr;  // the solution found last
   bool has_previous = false;  // the other attempt is the one before

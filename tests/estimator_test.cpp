@@ -349,6 +349,22 @@ TEST(Estimator, PlacesAreFoundBeyondABorderOfSections) {
   EXPECT_GT(std::abs(stiffer.mean[0] - 0.6), 2e-2);
 }
 
+// Forces of a hundred EI/L^2 to nanometres take more arcs than a stream's first memory holds.
+TEST(Estimator, AStreamTakesMoreMemoryWhereItMust) {
+  const Vector3d force_N(10, 90, -40);
+  const scene::Equilibrium exact =
+      exact_reference::solve(rod_under({force(L_mm, force_N)}), {exact_reference::RodModel::kirchhoff, 1e-11});
+  ASSERT_TRUE(exact.converged());
+  const scene::Scene start = rod_under({force(L_mm, 0.8 * force_N)});
+  const EstimationProblem problem{{{start, {position(exact_station(exact, L_mm / 2), 1e-5)}}},
+                                  components(0, {0, 1, 2}, start)};
+  Estimator estimator(problem);
+  const Estimate& found = estimator.track();
+  ASSERT_TRUE(found.converged()) << found.message;
+  EXPECT_LT((found.mean - force_N).norm(), 0.05);
+  EXPECT_LT((found.mean - Estimator(problem).estimate().mean).norm(), 0.01);
+}
+
 TEST(Estimator, AStreamTakesNoMemory) {
   const scene::Scene start = rod_under({force(L_mm, Vector3d::Zero())});
   const auto measured = [&](double share) {

@@ -282,6 +282,27 @@ TEST(Solver, EndsWhereItsMemoryEnds) {
   EXPECT_EQ(solver.tip().position_B_mm, held_mm);
 }
 
+// The same rod where no memory is reserved.
+TEST(Solver, TakesMemoryAsItNeedsIt) {
+  fam::Options options;
+  options.tolerance_mm = 1e-5;
+  options.reserved_arcs = 0;
+  const auto under = [](double force_N) {
+    return uniform_rod(100, slender(1000, 700), {scene::Force{100, Frame::fixed, {0, force_N, 0}}});
+  };
+  Solver solver = kept(under(0.1), options);
+  ASSERT_TRUE(solver.solve().converged());
+  solver.set_force_N(0, {0, 50, 0});
+  const std::size_t before = allocation_count();
+  ASSERT_TRUE(solver.solve().converged());
+  EXPECT_GT(allocation_count(), before);
+  const scene::Equilibrium exact = exact_reference::solve(under(50), {exact_reference::RodModel::kirchhoff});
+  EXPECT_LT((solver.tip().position_B_mm - exact.tip().position_B_mm).norm(), 1e-5);
+  const scene::Equilibrium stiffer =
+      exact_reference::solve(support::stiffer(under(50)), {exact_reference::RodModel::kirchhoff});
+  EXPECT_GT((solver.tip().position_B_mm - stiffer.tip().position_B_mm).norm(), 1e-2);
+}
+
 // Loads whose squares overflow are no loads that can be solved, nor none.
 TEST(Solver, LoadsThatOverflow) {
   for (const double force_N : {1e155, 1e160, 1e300}) {
