@@ -24,8 +24,10 @@ constexpr double largest_miss_rad = 0.1;  // corrected against predicted rotatio
 constexpr double largest_turn_rad = 0.8;  // of any section in a load step
 constexpr double first_turn_rad = 0.1;
 constexpr int most_load_steps = 3000;
-constexpr double most_work = 300'000;         // intervals linearised: seconds
-constexpr double most_rest_turn_rad = 1e4;    // two intervals a radian, and so seconds, too
+constexpr double most_work = 300'000;                              // intervals linearised: seconds
+constexpr double most_work_back = 3000, most_intervals_back = 64;  // 30 to 80 ms: coils and cables take more
+constexpr double stuck_step = 0.1;                                 // of the longest taken
+constexpr double most_rest_turn_rad = 1e4;                         // two intervals a radian, and so seconds, too
 constexpr double longest_step_on_way = 0.05;  // loads that turn back pass where branches meet; chosen, not measured
 constexpr double smallest_step = 1e-8;        // of the load reached or of the first step, whichever is larger
 
@@ -45,7 +47,7 @@ double largest_turn(const States& a, const NodeStates& b) {
 struct Path {
   Shooting shooting;
   NodeStates y;
-  double load = 0;
+  double load = 0, trial = 0, longest_taken = 0;  // of the steps: tried last, and taken
   int steps = 0;
   int newton_iterations = 0;
   std::size_t fewest_intervals = shooting.mesh().size();
@@ -54,6 +56,7 @@ struct Path {
   scene::Symmetry symmetry = scene::Symmetry::none;
   double load_size = 0;  // of ScaledRod
   double longest_step = 1;
+  double most_work_at_all = most_work;
   MeshedStates far = {};  // the last state that a step of far_step led to, at far_load
   double far_load = 0;
   scene::BranchWatch branch = {};  // by the determinant of the equations' derivatives
@@ -67,7 +70,7 @@ struct Path {
     return result;
   }
 
-  double most_work_here() const { return most_work + 100 * static_cast<double>(fewest_intervals); }
+  double most_work_here() const { return most_work_at_all + 100 * static_cast<double>(fewest_intervals); }
   bool exhausted() const { return shooting.work() > most_work_here(); }
 };
 
@@ -180,8 +183,10 @@ bool follow_load(Path& path) {
     for (;;) {
       const bool to_the_end = path.load + 1.01 * step >= 1;
       const double trial = to_the_end ? 1 - path.load : step;
+      path.trial = trial;
       miss = try_step(path, prediction, trial);
       if (miss < HUGE_VAL) {
+        path.longest_taken = std::max(path.longest_taken, trial);
         path.load = to_the_end ? 1 : path.load + trial;
         step = trial;
         break;
@@ -287,7 +292,32 @@ scene::Equilibrium stopped(const ScaledRod& rod, const Path& path) {
   return result;
 }
 
+// The rod whose loads are its own at first and shrink to none.
+ScaledRod unloading(ScaledRod rod) {
+  for (ScaledSpan& span : rod.spans) {
+    span.before = span;
+    static_cast<SpanLoads&>(span) = {};
+    for (ScaledTendon& tendon : span.tendons) tendon = {tendon.arm_S, 0, tendon.tension};
+  }
+  return rod;
+}
+
 }  // namespace
+
+std::optional<bool> leads_back(const ScaledRod& rod, const MeshedStates& equilibrium) {
+  if (static_cast<double>(equilibrium.mesh.size()) > most_intervals_back) return std::nullopt;
+  const ScaledRod back = unloading(rod);
+  Path path{Shooting(back, equilibrium.mesh), equilibrium.y};
+  path.most_work_at_all = most_work_back;
+  path.fewest_intervals = 0;
+  if (!path.newton(path.y, 0, on_the_way.newton, 8).converged || !start_stage(path, back)) return false;
+  path.load_size = rod.load_size();
+  path.watch_stability = rod.has_energy();
+  if (follow_load(path)) return true;
+  const bool shrinks = path.trial < stuck_step * path.longest_taken;  // as before a fold
+  if (path.exhausted() && !shrinks) return std::nullopt;
+  return false;
+}
 
 scene::Equilibrium solve_boundary_value(std::span<const ScaledRod> way, double tolerance, MeshedStates* reached) {
   scene::Equilibrium result;

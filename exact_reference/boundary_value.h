@@ -18,11 +18,18 @@
 #include "exact_reference/shooting.h"
 #include "scene/equilibrium.h"
 
+#include <optional>
+
 namespace exact_reference {
 
 // tolerance: of any position, over L. The rods of a way (scaled_way), or one alone: the branch goes on from each to the
 // next. reached: if given, the nodes at the full load, on the mesh of the way there.
 scene::Equilibrium solve_boundary_value(std::span<const ScaledRod> way, double tolerance,
                                         MeshedStates* reached = nullptr);
+
+// Whether the rod unloads from this equilibrium under its full loads, stable if they have an energy and to be converged
+// on that mesh first, to the unloaded rod, in steps as above: then it is the one that the growing load leads to. Empty: that takes more work than
+// a certificate is worth (coils, cables).
+std::optional<bool> leads_back(const ScaledRod& rod, const MeshedStates& equilibrium);
 
 }  // namespace exact_reference

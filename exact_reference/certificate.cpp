@@ -1,5 +1,6 @@
 #include "exact_reference/certificate.h"
 
+#include "exact_reference/boundary_value.h"
 #include "exact_reference/shape.h"
 #include "exact_reference/shooting.h"
 #include "exact_reference/stability.h"
@@ -138,13 +139,21 @@ void measure(Certificate& certificate, const ScaledRod& rod, const Iteration& fo
     certificate.wrench = std::max(force_error_N / force_scale_N, moment_error_Nmm / moment_scale_Nmm);
 }
 
-Certificate::Branch branch_of(const ScaledRod& rod, const Shooting& shooting, const NodeStates& y) {
-  if (!rod.has_fixed_load() || rod.moments_are_known() || rod.load_size() < 1) return Certificate::Branch::alone;
-  if (falling_directions(shooting, y).value_or(1) > 0) return Certificate::Branch::doubtful;
-  if (rod.symmetry == scene::Symmetry::axis) return Certificate::Branch::same;
+using Branch = Certificate::Branch;
+
+bool signs_hold(const ScaledRod& rod, const Shooting& shooting, const NodeStates& y) {
+  if (falling_directions(shooting, y).value_or(1) > 0) return false;
+  if (rod.symmetry == scene::Symmetry::axis) return true;
   const Shooting coarse(rod, unloaded_intervals);
-  const bool same_sign = shooting.determinant(y, 1).negative == coarse.determinant(coarse.unloaded(), 0).negative;
-  return same_sign ? Certificate::Branch::same : Certificate::Branch::doubtful;
+  return shooting.determinant(y, 1).negative == coarse.determinant(coarse.unloaded(), 0).negative;
+}
+
+Branch branch_of(const ScaledRod& rod, const MeshedStates& coarse, const Iteration& found) {
+  if (!rod.has_fixed_load() || rod.moments_are_known() || rod.load_size() < 1) return Branch::alone;
+  if (!signs_hold(rod, found.shooting, found.y)) return Branch::doubtful;
+  const std::optional<bool> back = leads_back(rod, coarse);
+  if (!back) return Branch::signs;
+  return *back ? Branch::walked : Branch::doubtful;
 }
 
 }  // namespace
@@ -168,7 +177,7 @@ Certificate certify(const scene::Scene& scene, const scene::Equilibrium& answer,
   }
   result.found = true;
   measure(result, rod, iteration, answer.stations);
-  result.branch = branch_of(rod, iteration.shooting, iteration.y);
+  result.branch = branch_of(rod, nodes, iteration);
   return result;
 }
 

@@ -3,8 +3,8 @@
 // factorised derivatives turns them into the distance to an equilibrium of these equations. Nothing of the other method
 // but its stations is used; where all loads follow, the equilibrium is the only one.
 //
-// What it cannot see alone: an equilibrium that the growing load does not lead to. Signs that it may be one make it
-// doubtful; that the signs suffice is measured, not proved (study `campaign`).
+// Whether the growing load leads to that equilibrium is told by signs and by unloading the rod from it; where that
+// takes too much work, by signs alone. That they suffice is measured, not proved (study `campaign`).
 #pragma once
 
 #include "exact_reference/scaled_rod.h"
@@ -17,10 +17,12 @@ namespace exact_reference {
 
 struct Certificate {
   enum class Branch {
-    alone,  // the only equilibrium: loads that follow, moments that are known, loads too small for a second one
-            // (load_size() < 1)
-    same,   // the determinant's sign is the unloaded rod's, and no direction lets the energy fall, where there is one
-    doubtful
+    alone,   // the only equilibrium: loads that follow, moments that are known, loads too small for a second one
+             // (load_size() < 1)
+    walked,  // signs hold, and the rod unloads from it to the unloaded rod, no step a jump (leads_back)
+    signs,   // the determinant's sign is the unloaded rod's, and no direction lets the energy fall, where there is one;
+             // a path back takes too much work
+    doubtful  // neither
   };
   // Newton's iteration from the stations ended at an equilibrium, the mesh refined to the tolerance. Else the numbers
   // below are infinite and the branch doubtful.

@@ -22,4 +22,15 @@ Judged judged(const scene::Scene& scene, const scene::Equilibrium& answer, doubl
   return result;
 }
 
+std::string Judged::certified_by() const {
+  using Branch = exact_reference::Certificate::Branch;
+  switch (certificate.branch) {
+    case Branch::alone: return "certified: the only equilibrium";
+    case Branch::walked: return "certified: path back";
+    case Branch::signs:
+    case Branch::doubtful: break;
+  }
+  return "certified: signs of the branch";
+}
+
 }  // namespace studies

@@ -14,6 +14,7 @@ struct Judged {
   std::optional<scene::Equilibrium> exact;  // where it was asked
   double position = 0, tip = 0;             // errors over L, by the exact reference where it was asked and converged
   bool by_exact() const { return exact && exact->converged(); }
+  std::string certified_by() const;  // "certified: ", and what the certificate goes by; its branch is not doubtful
 };
 
 // The exact reference resolves 1e-9 L, a certificate's equilibrium this, unless tolerances are given.

@@ -52,8 +52,7 @@ SceneOutcome random_outcome(std::uint64_t campaign, std::uint64_t index) {
   }
   const Judged by = judged(scene, answer, missed, in_sample(index, exact_every));
   if (!by.exact) {
-    const bool alone = by.certificate.branch == exact_reference::Certificate::Branch::alone;
-    outcome.outcome = alone ? "certified: the only equilibrium" : "certified: signs of the branch";
+    outcome.outcome = by.certified_by();
   } else if (!by.by_exact()) {
     set_failure(outcome, "no judge");
   } else if (by.tip > wrong) {
@@ -101,12 +100,13 @@ SceneOutcome audit_outcome(std::uint64_t campaign, std::uint64_t index) {
   }
   const Judged by = judged(scene, answer, missed, true);
   const bool holds = by.certificate.holds(missed);
+  const std::string certificate = holds ? by.certified_by() : "doubted";
   if (!by.by_exact()) {
-    outcome.outcome = holds ? "certified; no exact answer" : "doubted; no exact answer";
+    outcome.outcome = certificate + "; no exact answer";
   } else if (by.position <= missed) {
-    outcome.outcome = holds ? "certified; right" : "doubted; right";
+    outcome.outcome = certificate + "; right";
   } else {
-    outcome.outcome = holds ? "certified; not right" : "doubted; not right";
+    outcome.outcome = certificate + "; not right";
     outcome.failure = holds;
     outcome.measures = {{holds ? "position where certified" : "position where doubted", by.position}};
   }

@@ -32,6 +32,7 @@ std::string bound_text(std::uint64_t found, std::uint64_t asked) {
 const std::vector<std::pair<std::string, std::string>>& outcomes_of_random() {
   static const std::vector<std::pair<std::string, std::string>> words{
       {"certified: the only equilibrium", "certified, the only equilibrium"},
+      {"certified: path back", "certified, path back"},
       {"certified: signs of the branch", "certified, signs of the branch"},
       {"right", "right by the exact reference"},
       {"tolerance missed", "tolerance missed"},
@@ -59,16 +60,34 @@ Table outcomes_table(const Tally& random) {
   return table;
 }
 
+// What the certificate says of an answer, and the words for it.
+const std::vector<std::pair<std::string, std::string>>& verdicts() {
+  static const std::vector<std::pair<std::string, std::string>> words{
+      {"doubted", "doubted"},
+      {"certified: the only equilibrium", "certified, the only equilibrium"},
+      {"certified: path back", "certified, path back"},
+      {"certified: signs of the branch", "certified, signs of the branch"}};
+  return words;
+}
+
+std::uint64_t judged_as(const Tally& audit, const std::string& right, const std::string& who = {}) {
+  std::uint64_t sum = 0;
+  for (const auto& [verdict, name] : verdicts()) sum += starting_with(audit, verdict + "; " + right, who);
+  return sum;
+}
+
 Table audit_table(const Tally& audit) {
-  Table table(
-      {"answers of", "judged", "not right, doubted", "not right, certified", "right, certified", "right, doubted"});
+  std::vector<std::string> head{"answers of", "judged"};
+  for (const std::string right : {"not right", "right"})
+    for (const auto& [verdict, name] : verdicts()) head.push_back(right + ", " + name);
+  Table table(head);
   for (const std::string who : {"FAM", "FAM on few arcs", "plain shooting"}) {
-    const auto n = [&](const std::string& outcome) { return starting_with(audit, outcome, who); };
-    const std::uint64_t wrong_doubted = n("doubted; not right"), wrong_certified = n("certified; not right"),
-                        certified = n("certified; right"), doubted = n("doubted; right");
-    table.add({who, std::to_string(wrong_doubted + wrong_certified + certified + doubted),
-               std::to_string(wrong_doubted), std::to_string(wrong_certified), std::to_string(certified),
-               std::to_string(doubted)});
+    std::vector<std::string> cells{who,
+                                   std::to_string(judged_as(audit, "not right", who) + judged_as(audit, "right", who))};
+    for (const std::string right : {"not right", "right"})
+      for (const auto& [verdict, name] : verdicts())
+        cells.push_back(std::to_string(starting_with(audit, verdict + "; " + right, who)));
+    table.add(cells);
   }
   return table;
 }
@@ -120,15 +139,15 @@ std::map<std::string, std::string> campaign_files(const CampaignData& data, cons
                       certified = starting_with(random, "certified"),
                       missed = starting_with(random, "tolerance missed"),
                       flagged = starting_with(random, "wrong but flagged");
-  const std::uint64_t audited = starting_with(data.audit, "certified; r") + starting_with(data.audit, "certified; n") +
-                                starting_with(data.audit, "doubted; r") + starting_with(data.audit, "doubted; n"),
-                      escaped = starting_with(data.audit, "certified; not right"),
-                      not_right = starting_with(data.audit, "doubted; not right") + escaped;
+  const std::uint64_t not_right = judged_as(data.audit, "not right"),
+                      audited = not_right + judged_as(data.audit, "right"),
+                      escaped = not_right - starting_with(data.audit, "doubted; not right"),
+                      by_signs = starting_with(data.audit, "certified: signs of the branch; not right");
   Page page;
   const auto set = [&](const char* name, std::uint64_t n) { page.set(name, std::to_string(n)); };
   set("scenes", scenes), set("judged", judged), set("silent", silent), set("missed", missed), set("flagged", flagged);
   set("no_answer", no_answer), set("no_judge", no_judge), set("escaped", escaped), set("not_right", not_right);
-  set("audited", audited);
+  set("audited", audited), set("by_signs", by_signs), set("by_path", escaped - by_signs);
   set("lost", starting_with(random, "no answer but exact"));
   set("failures_judged", starting_with(random, "no answer but exact") + starting_with(random, "no answer nor exact"));
   page.set("silent_bound", bound_text(silent, judged));
