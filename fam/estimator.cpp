@@ -32,6 +32,7 @@ constexpr double converged_decrease = 1e-8;
 constexpr double flat_decrease = 1e-6;       // of 1 + chi-squared: the model's own error may hide what is less
 constexpr double small_step = 0.01;          // in standard deviations
 constexpr double least_information = 1e-12;  // of the largest, below which a step would be round-off
+constexpr double clear_information = 1e-9;   // of pivots, above which no direction is near that
 constexpr double longest_step = 2;           // in the unknowns' own units
 constexpr double longest_place_step = 0.2;   // of the length
 constexpr double good_share = 0.9;           // of the decrease that a step promised: the damping falls fast
@@ -109,6 +110,11 @@ struct Estimator::Impl {
 
   // How much a full step could bring chi-squared down: g^T H^-1 g where H is not small.
   double possible_decrease() {
+    factors.compute(information);
+    if (factors.vectorD().minCoeff() > clear_information * factors.vectorD().maxCoeff()) {
+      along = factors.solve(gradient);
+      return gradient.dot(along);
+    }
     damped = information;
     diagonalise(damped, vectors);
     along.noalias() = vectors.transpose() * gradient;

@@ -103,8 +103,9 @@ Status Solver::Impl::solve_with_arcs(Attempt& attempt, bool on) {
       return at_end ? before_point_loads(state, before) : state;
     });
   }
-  if (run.converged()) run.status = verdict(run.engine, attempt.problem.choice().law, run.extent(attempt.problem));
-  return run.status;
+  if (!run.converged()) return run.status;
+  extent = run.extent(attempt.problem);
+  return run.status = verdict(run.engine, attempt.problem.choice().law, extent);
 }
 
 // Where the arcs are too long, or a load is not reached with them, twice as many are tried, until two fail at the same
@@ -139,7 +140,7 @@ Solver::Outcome Solver::Impl::solve(Start start) {
 bool Solver::Impl::refine(Attempt& attempt) {
   const Problem& problem = attempt.problem;
   const double allowed_rad = allowed_swing_rad(problem.choice().law, problem.tolerance_mm() / problem.length_mm());
-  const double times = std::ceil(attempt.run.extent(problem).swing_rad / allowed_rad);
+  const double times = std::ceil(extent.swing_rad / allowed_rad);
   if (!(times > 1)) return true;
   if (!(times * attempt.run.arc_count() <= most_arcs)) return false;
   spare[0].solve(problem, attempt.run.arcs, static_cast<int>(times), &attempt.run);

@@ -25,6 +25,7 @@ struct Solver::Impl {
   Options options;
   int most_arcs = most_unreserved_arcs;
   std::array<Attempt, 2> attempts;
+  ArcExtent extent;  // of the arcs that solve_with_arcs() solved last
   Attempt* solved = nullptr;  // the solution found last
   bool has_previous = false;  // the other attempt is the one before
   Solution solution;          // of it
