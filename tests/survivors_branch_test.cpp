@@ -47,6 +47,20 @@ TEST(SurvivorsFam, StripsBesideLateralBuckling) {
   }
 }
 
+// Of an audit the one answer of FAM that was wrong, and certified by its signs: a strip loaded on edge, a hundred
+// thousandth of the load beside it, buckled to the side that it is not pushed to. Finite elements agree with the exact
+// reference.
+TEST(SurvivorsFam, StripPushedAsideByNextToNothing) {
+  const Scene strip = studies::random_scene(studies::campaign_seed(2, 22'275));
+  const double length_mm = scene::length_mm(strip);
+  const Vector3d exact_mm = tip(by_exact(strip));
+  EXPECT_LT((tip(by_fem(strip, 48, 2)) - exact_mm).norm(), 1e-4 * length_mm);
+  for (const double tolerance : {1e-3, 1e-5}) {
+    EXPECT_LT((tip(by_fam(strip, tolerance * length_mm)) - exact_mm).norm(), tolerance * length_mm);
+    EXPECT_GT((tip(by_fam(support::stiffer(strip), tolerance * length_mm)) - exact_mm).norm(), 2e-3 * length_mm);
+  }
+}
+
 // Of 630 000 random scenes the three whose answers were wrong, the first two silently: more arcs led a coil to another
 // equilibrium, 0.03 L off, and a strip to the unstable one between its two stable ones, where fewer arcs were still
 // below the critical load; 2 and 4 arcs of a strip within a thousandth of it were alike by chance.
