@@ -146,7 +146,7 @@ std::map<std::string, std::string> campaign_files(const CampaignData& data, cons
   Page page;
   const auto set = [&](const char* name, std::uint64_t n) { page.set(name, std::to_string(n)); };
   set("scenes", scenes), set("judged", judged), set("silent", silent), set("missed", missed), set("flagged", flagged);
-  set("no_answer", no_answer), set("no_judge", no_judge), set("escaped", escaped), set("not_right", not_right);
+  set("no_answer", no_answer), set("no_judge", no_judge), set("not_right", not_right);
   set("audited", audited), set("by_signs", by_signs), set("by_path", escaped - by_signs);
   set("lost", starting_with(random, "no answer but exact"));
   set("failures_judged", starting_with(random, "no answer but exact") + starting_with(random, "no answer nor exact"));
