@@ -46,6 +46,7 @@ class BasicBoundaryValue {
   }
   int segment_count() const { return static_cast<int>(shooting_.segments().size()); }
   int load_steps() const { return growth_.load_steps(); }
+  double expected_turn_rad() const { return shooting_.expected_turn_rad(); }
   int newton_steps() const { return shooting_.newton_steps(); }  // of the last run, and of the one that it started from
   double load_factor() const { return shooting_.rod().load_factor(); }  // reached
   std::string message() const { return why_ ? why_ : growth_.message(); }

@@ -96,6 +96,9 @@ int Engine::load_steps() const {
 int Engine::newton_steps() const {
   return visit([](const auto& s) { return of_boundary_value(s, [](const auto& p) { return p.newton_steps(); }); });
 }
+double Engine::expected_turn_rad() const {
+  return visit([](const auto& s) { return of_boundary_value(s, [](const auto& p) { return p.expected_turn_rad(); }); });
+}
 std::string Engine::failure_message(Status status) const {
   return visit([&](const auto& s) { return message_of(s, status); });
 }

@@ -206,6 +206,7 @@ bool Shooting<D>::newton_one_segment(bool fresh_slope, double tolerance, const O
     // The next step would be smaller by what this one was, or squared after fresh derivatives.
     const double shrinkage = std::isfinite(last) ? std::min(size / last, 0.1) : 0.1;
     const double next = fresh_slope ? size * shrinkage : newton_curvature * size * size;
+    expected_turn_rad_ = next;
     if (next <= tolerance) return equations.mismatch_is_small;
     fresh_slope = slopes_last(fresh_slope, size, last);
     last = size;
@@ -273,13 +274,15 @@ bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const OnT
     const double turn_rad = apply(system_.right()), size = system_.right().cwiseAbs().maxCoeff();
     if (way && turn_rad > way->hopeless_turn_rad) return false;
     const bool stalls = !keep_factors && size > 0.5 * last;
+    const double shrinkage = std::isfinite(last) ? size / last : 0.1;
+    const double expected_share = keep_factors ? shrinkage : newton_curvature * size;
+    expected_turn_rad_ = turn_rad * (stalls ? 1 : expected_share);
     if (stalls && turn_rad <= tolerance) return small;
     if (way && stalls && !kept_last && ++stalled == most_stalled_steps) return false;
     kept_last = keep_factors;
     const bool tells = !(std::abs(system_.log_determinant() - last_log) > most_log_change);
     last_log = system_.log_determinant();
-    const double shrinkage = std::isfinite(last) ? size / last : 0.1;
-    if (tells && size * (keep_factors ? shrinkage : newton_curvature * size) <= tolerance) return small;
+    if (tells && size * expected_share <= tolerance) return small;
     const bool may_keep = keep_factors || (way && !scene::has_fallen(way->start, determinant()));
     keep_factors = tells && may_keep && slopes_last(keep_factors, size, last);
     last = size;

@@ -32,7 +32,8 @@ constexpr double leading_turn_rad = 0.2;
 constexpr double newton_curvature = 30;
 // Of the determinant's logarithm, from one factorisation to the next: a step that comes after more is not the last, and
 // its factors are not kept. Four columns of 234 000 random scenes were off by 4e-4 to 5e-3 L, azimuths that next to
-// nothing holds, at estimates of 1e-6 to 1e-4; with 0.2 to 1.4 none is, and 2000 others are as before, in their time.
+// nothing holds, at estimates of 1e-6 to 1e-4; with 0.2 to 1.4 none is (one ends without an answer at 1e-4 L), and 2000
+// others are as before, in their time.
 constexpr double most_log_change = 0.7;
 constexpr double tightest_newton_tolerance = 1e-13;  // some hundred round-offs of a rotation
 
@@ -76,6 +77,7 @@ class Shooting {
   bool moments_are_known() const { return moments_are_known_; }
   double newton_tolerance() const { return newton_tolerance_; }
   int newton_steps() const { return newton_steps_; }  // since forget_work()
+  double expected_turn_rad() const { return expected_turn_rad_; }  // of a node in the step that Newton left out last
   void forget_work();
 
   void set_load(double factor) { rod_.set_load(factor); }
@@ -159,7 +161,7 @@ class Shooting {
   double apply(const Eigen::Ref<const Eigen::VectorXd>& step);
 
   LoadedRod<D> rod_;
-  double newton_tolerance_ = 0;
+  double newton_tolerance_ = 0, expected_turn_rad_ = 0;
   double length_mm_ = 0;
   double least_stiffness_Nmm2_ = 0;
   LoadBounds bounds_;

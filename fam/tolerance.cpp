@@ -135,7 +135,8 @@ class Ladder {
   bool meets(const Run& run, double factor, const Distance& d) {
     const double rest_mm = round_off_mm(problem_, run) + problem_.choice().rod.left_out_mm;
     const ArcExtent extent = run.extent(problem_);
-    const double least_mm = extent.least_error_over_L(extent.swing_rad <= longest_swing_rad) * problem_.length_mm();
+    const double least_over_L = extent.least_error_over_L(extent.swing_rad <= longest_swing_rad);
+    const double least_mm = std::max(least_over_L, run.engine.expected_turn_rad()) * problem_.length_mm();
     error_mm_ = std::max(factor * d.position_mm + rest_mm, least_mm);
     needed_mm_ = std::max(error_mm_, factor * largest_mm(d) + rest_mm);
     return needed_mm_ <= problem_.tolerance_mm();

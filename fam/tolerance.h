@@ -35,7 +35,8 @@ struct Run {
 // Automatic choice: runs with N and r N arcs that lie d apart; the estimate is coarse_safety d for the first and
 // d (fine_safety / (r^(p - 1) - 1) + distrust d / L) for the second: an order less than the law's, which few arcs do
 // not show yet. Two or three arcs may agree by chance: the second's is at least unconfirmed d where no third resolution
-// was solved, and at least d where d has not fallen below contraction times the distance before it.
+// was solved, and at least d where d has not fallen below contraction times the distance before it. No estimate is less
+// than L times the turn that Newton's method left out.
 constexpr double coarse_safety = 1.5;
 constexpr double fine_safety = 4;
 constexpr double distrust = 4;
