@@ -39,7 +39,7 @@ struct Options {
   bool locate_limit = true;
 
   // Of a Solver: arcs that memory is taken for, those of the estimate's finer run included, 1..max_arcs. 0: for none;
-  // solves take what they need, for 65 536 arcs at most. A single solve is faster so.
+  // solves take what they need, for 65 536 arcs at most unless more are asked for. A single solve is faster so.
   int reserved_arcs = 1024;
 
   // Of fam::solve_batch: threads that share the rows; 0: as many as the machine runs at once.

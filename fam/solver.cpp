@@ -44,6 +44,8 @@ Solver::Impl::Impl(const scene::Scene& wanted, const Options& wanted_options) : 
 }
 
 void Solver::Impl::reserve() {
+  const int asked_for = 2 * std::min(options.arcs, max_arcs);  // the estimate's finer run included
+  most_arcs = std::max(most_unreserved_arcs, asked_for);
   if (options.reserved_arcs == 0) return;
   Room room{static_cast<std::size_t>(options.reserved_arcs), scene.sections.size(), 0};
   for (const scene::Load& load : scene.loads) {
@@ -51,7 +53,7 @@ void Solver::Impl::reserve() {
     if (scene::tendon_of(load)) ++room.tendons;
   }
   room.arcs = std::max(room.arcs, 2 * room.spans);
-  most_arcs = std::max(static_cast<int>(room.arcs), 2 * std::min(options.arcs, max_arcs));
+  most_arcs = std::max(static_cast<int>(room.arcs), asked_for);
   const Law law = attempts[0].problem.choice().law;
   for (Attempt& attempt : attempts) {
     attempt.problem.reserve(scene, room);

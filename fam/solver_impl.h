@@ -23,7 +23,7 @@ struct Attempt {
 struct Solver::Impl {
   scene::Scene scene;
   Options options;
-  int most_arcs = most_unreserved_arcs;
+  int most_arcs = 0;
   std::array<Attempt, 2> attempts;
   ArcExtent extent;  // of the arcs that solve_with_arcs() solved last
   Attempt* solved = nullptr;  // the solution found last
