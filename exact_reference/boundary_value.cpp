@@ -26,7 +26,7 @@ constexpr double first_turn_rad = 0.1;
 constexpr int most_load_steps = 3000;
 constexpr double most_work = 300'000;                              // intervals linearised: seconds
 constexpr double most_work_back = 3000, most_intervals_back = 64;  // 30 to 80 ms: coils and cables take more
-constexpr double stuck_step = 0.1;                                 // of the longest taken
+constexpr double stuck_step = 0.1;                                 // of the longest taken; chosen, not measured
 constexpr double most_rest_turn_rad = 1e4;                         // two intervals a radian, and so seconds, too
 constexpr double longest_step_on_way = 0.05;  // loads that turn back pass where branches meet; chosen, not measured
 constexpr double smallest_step = 1e-8;        // of the load reached or of the first step, whichever is larger

@@ -27,9 +27,9 @@ namespace exact_reference {
 scene::Equilibrium solve_boundary_value(std::span<const ScaledRod> way, double tolerance,
                                         MeshedStates* reached = nullptr);
 
-// Whether the rod unloads from this equilibrium under its full loads, stable if they have an energy and to be converged
-// on that mesh first, to the unloaded rod, in steps as above: then it is the one that the growing load leads to. Empty: that takes more work than
-// a certificate is worth (coils, cables).
+// Whether the rod unloads from this equilibrium under its full loads (to be converged on that mesh first) to the
+// unloaded rod, in steps as above: then it is the one that the growing load leads to. Where the loads have an energy it
+// must be stable. Empty: that takes more work than a certificate is worth (coils, cables).
 std::optional<bool> leads_back(const ScaledRod& rod, const MeshedStates& equilibrium);
 
 }  // namespace exact_reference

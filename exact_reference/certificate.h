@@ -22,7 +22,7 @@ struct Certificate {
     walked,  // signs hold, and the rod unloads from it to the unloaded rod, no step a jump (leads_back)
     signs,   // the determinant's sign is the unloaded rod's, and no direction lets the energy fall, where there is one;
              // a path back takes too much work
-    doubtful  // neither
+    doubtful  // a sign is another, or the rod does not unload so
   };
   // Newton's iteration from the stations ended at an equilibrium, the mesh refined to the tolerance. Else the numbers
   // below are infinite and the branch doubtful.
