@@ -24,10 +24,11 @@ constexpr double largest_miss_rad = 0.1;  // corrected against predicted rotatio
 constexpr double largest_turn_rad = 0.8;  // of any section in a load step
 constexpr double first_turn_rad = 0.1;
 constexpr int most_load_steps = 3000;
-constexpr double most_work = 300'000;                              // intervals linearised: seconds
-constexpr double most_work_back = 3000, most_intervals_back = 64;  // 30 to 80 ms: coils and cables take more
-constexpr double stuck_step = 0.1;                                 // of the longest taken; chosen, not measured
-constexpr double most_rest_turn_rad = 1e4;                         // two intervals a radian, and so seconds, too
+constexpr double most_work = 300'000;  // intervals linearised: seconds
+// Of a path back: up to 40 ms. On more intervals (cables, coils) most take as long as the exact reference itself.
+constexpr double most_work_back = 3000, most_intervals_back = 32;
+constexpr double stuck_step = 0.1;            // of the longest taken; chosen, not measured
+constexpr double most_rest_turn_rad = 1e4;    // two intervals a radian, and so seconds, too
 constexpr double longest_step_on_way = 0.05;  // loads that turn back pass where branches meet; chosen, not measured
 constexpr double smallest_step = 1e-8;        // of the load reached or of the first step, whichever is larger
 
@@ -53,6 +54,7 @@ struct Path {
   std::size_t fewest_intervals = shooting.mesh().size();
   bool tendon_collapsed = false;  // in the last iteration
   bool watch_stability = false;   // conservative, and stable so far
+  bool unloads = false;           // the loads that it ends at are none
   scene::Symmetry symmetry = scene::Symmetry::none;
   double load_size = 0;  // of ScaledRod
   double longest_step = 1;
@@ -85,13 +87,33 @@ bool watches_determinant(const Path& path) {
   return path.symmetry != scene::Symmetry::axis;
 }
 
+// scene::Determinant::log_growth: of a taut rod the determinant is cosh(int sqrt(N_x / EI) ds) for each plane of
+// bending.
+double log_growth(const Path& path, const NodeStates& y) {
+  double sum = 0;
+  for (std::size_t k = 0; k < path.shooting.mesh().size(); ++k) {
+    const Eigen::Vector3d tangent_B = rotation_of(y[k].head<4>()).col(0);
+    const double tension = std::max(0.0, tangent_B.dot(y[k].segment<3>(4)));
+    const Interval& interval = path.shooting.mesh()[k];
+    const Eigen::Vector3d& compliance = path.shooting.rod().spans[interval.span].bending_compliance;
+    sum += interval.length * std::sqrt(tension) * (std::sqrt(compliance[1]) + std::sqrt(compliance[2]));
+  }
+  return sum;
+}
+
+scene::Determinant determinant_of(const Path& path, const NodeStates& y, double load_factor) {
+  scene::Determinant result = path.shooting.determinant(y, load_factor);
+  if (path.unloads) result.log_growth = log_growth(path, y);
+  return result;
+}
+
 // The determinant a little before the first load, so that the first step has two to go by.
 void look_back(Path& path) {
   const double little = 0.01 / std::max(path.load_size, 1.0);
   NodeStates y = path.y;
   path.newton(y, -little, on_the_way.newton, 8);
-  path.branch.keep(-little, path.shooting.determinant(y, -little));
-  path.branch.keep(0, path.shooting.determinant(path.y, 0));
+  path.branch.keep(-little, determinant_of(path, y, -little));
+  path.branch.keep(0, determinant_of(path, path.y, 0));
 }
 
 // The path ahead: its tangent and, to second order, how that has changed over the last step, if the mesh is still that
@@ -141,7 +163,7 @@ double try_step(Path& path, const Prediction& prediction, double step) {
   const bool jumped = !(miss <= largest_miss_rad) || !(largest_turn(corrected, path.y) <= largest_turn_rad);
   if (!newton.converged || jumped) return HUGE_VAL;
   scene::Determinant determinant;
-  if (watches_determinant(path)) determinant = path.shooting.determinant(corrected, path.load + step);
+  if (watches_determinant(path)) determinant = determinant_of(path, corrected, path.load + step);
   if (path.branch.has_left(determinant)) return HUGE_VAL;
   if (path.watch_stability && falling_directions(path.shooting, corrected, path.load + step).value_or(0) > 0) {
     if (step > smallest_bifurcation_step) return HUGE_VAL;
@@ -175,7 +197,9 @@ bool follow_load(Path& path) {
     if (first_step == 0) {
       double slope = 0;
       for (const Core& t : prediction.tangent) slope = std::max(slope, 2 * t.head<4>().norm());
-      step = first_step = std::min(1 / std::max(path.load_size, 1.0), first_turn_rad / std::max(slope, first_turn_rad));
+      // From no loads a tangent tells nothing of critical points.
+      const double longest = path.unloads ? 1 : 1 / std::max(path.load_size, 1.0);
+      step = first_step = std::min(longest, first_turn_rad / std::max(slope, first_turn_rad));
       if (!(first_step > 0)) return false;  // a load or a slope overflows
     }
     step = std::min({step, path.longest_step, path.branch.longest_step(path.load)});
@@ -191,6 +215,7 @@ bool follow_load(Path& path) {
         step = trial;
         break;
       }
+      if (path.exhausted()) return false;
       step = trial / 2;
       if (step < smallest_step * std::max(path.load, first_step)) return false;
     }
@@ -313,6 +338,7 @@ std::optional<bool> leads_back(const ScaledRod& rod, const MeshedStates& equilib
   if (!path.newton(path.y, 0, on_the_way.newton, 8).converged || !start_stage(path, back)) return false;
   path.load_size = rod.load_size();
   path.watch_stability = rod.has_energy();
+  path.unloads = true;
   if (follow_load(path)) return true;
   const bool shrinks = path.trial < stuck_step * path.longest_taken;  // as before a fold
   if (path.exhausted() && !shrinks) return std::nullopt;

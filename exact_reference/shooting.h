@@ -86,6 +86,7 @@ class Shooting {
   RodEquations equations(std::size_t i, double load_factor) const;
 
   const Mesh& mesh() const { return mesh_; }
+  const ScaledRod& rod() const { return rod_; }
 
   // |det - 1| of each interval's sensitivity in Newton's last iteration, if the mesh is still that one. The exact one
   // is 1 (the equations' Jacobian has no trace): what grows along the interval and what decays, both must be resolved,
