@@ -51,8 +51,8 @@ struct Estimator::Impl {
   EstimationRows rows;
   Estimate result;
 
-  // Of Gauss-Newton: x, and rows there and at the trial.
-  VectorXd x, start, trial, moved, gradient, scaling, along, residual, trial_residual;
+  // Of Gauss-Newton: x, where the rods stand, and rows at x and at the trial.
+  VectorXd x, stand, start, trial, moved, gradient, scaling, along, residual, trial_residual;
   MatrixXd slopes, information, damped, vectors;
   Eigen::LDLT<MatrixXd> factors;
   Posterior posterior;
@@ -67,7 +67,7 @@ struct Estimator::Impl {
   }
 
   void take_memory(Index count) {
-    for (VectorXd* v : {&x, &start, &trial, &moved, &gradient, &scaling, &along, &result.mean, &result.sd})
+    for (VectorXd* v : {&x, &stand, &start, &trial, &moved, &gradient, &scaling, &along, &result.mean, &result.sd})
       v->resize(count);
     for (VectorXd* v : {&residual, &trial_residual}) v->resize(rows.count());
     slopes.resize(rows.count(), count);
@@ -156,16 +156,33 @@ struct Estimator::Impl {
     return std::nullopt;
   }
 
+  // The last step is as good without the rods solved there where the next one would be below what ends the iteration:
+  // the sizes fall at least as they did from the step before.
+  bool is_last(double size, double last_size, double chi_squared) const {
+    return solved_at_x && size * size * size * size <= last_size * last_size * converged_decrease * (1 + chi_squared);
+  }
+
+  // False: a bound or a limit shortens the step.
+  bool take_last_step(double possible) {
+    if (!(step(least_damping) > good_share * possible)) return false;
+    x.swap(trial);
+    residual.noalias() += slopes * moved;
+    return true;
+  }
+
   bool minimise() {
     const bool warm = solved_at_x;
     if (!evaluate()) return false;
     double damping = warm ? warm_damping : first_damping, chi_squared = residual.squaredNorm(), way = 0;
+    double last_size = 0;  // in standard deviations
     for (result.iterations = 0; result.iterations < most_iterations; ++result.iterations) {
       information.noalias() = slopes.transpose() * slopes;
       gradient.noalias() = slopes.transpose() * residual;
       const double largest = information.diagonal().maxCoeff();
       const double possible = largest > 0 ? possible_decrease() : 0;
+      stand = x;
       if (!(possible > converged_decrease * (1 + chi_squared))) return true;
+      if (is_last(std::sqrt(possible), last_size, chi_squared) && take_last_step(possible)) return true;
       scaling = information.diagonal().cwiseMax(least_scaling * largest);
       const std::optional<double> promised = descend(damping, chi_squared, possible);
       if (!promised && solved_at_x && way > 0 && renew_slopes()) {
@@ -173,7 +190,8 @@ struct Estimator::Impl {
         continue;
       }
       if (!promised) return is_flat(chi_squared);
-      way += std::sqrt(moved.dot(along));
+      last_size = std::sqrt(moved.dot(along));
+      way += last_size;
       x.swap(trial);
       residual.swap(trial_residual);
       solved_at_x = true;
@@ -258,6 +276,7 @@ struct Estimator::Impl {
 
   const Estimate& track() {
     start = x;
+    if (solved_at_x) x = stand;
     bool found = search();
     if ((!found || !result.fits) && has_unknown_place()) found = search_elsewhere();
     if (!found) x = start;
