@@ -89,7 +89,7 @@ std::optional<double> LoadGrowth<D>::try_step(Shooting<D>& shooting, double to) 
   shooting.set_load(to);
   const double tolerance = shooting.newton_tolerance();
   const double allowed_rad = load_steps_ == 0 ? largest_turn_rad / 2 : largest_surprise_rad;
-  const OnTheWay way{start_determinant_, hopeless_turns * allowed_rad};
+  const OnTheWay way{start_determinant_, hopeless_turns * allowed_rad, near_critical_};
   bool accepted = shooting.newton(to < 1 ? std::max(tolerance, load_step_tolerance) : tolerance, &way);
   double turn = 0;
   double surprise = 0;

@@ -283,7 +283,7 @@ bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const OnT
     const bool tells = !(std::abs(system_.log_determinant() - last_log) > most_log_change);
     last_log = system_.log_determinant();
     if (tells && size * expected_share <= tolerance) return small;
-    const bool may_keep = keep_factors || (way && !scene::has_fallen(way->start, determinant()));
+    const bool may_keep = keep_factors || (way && !way->near_critical && !scene::has_fallen(way->start, determinant()));
     keep_factors = tells && may_keep && slopes_last(keep_factors, size, last);
     last = size;
   }
@@ -324,7 +324,8 @@ bool Shooting<D>::solve_from(const Shooting& fewer) {
   nodes_ = fewer.nodes_;
   newton_steps_ = fewer.newton_steps_;
   set_load(1);
-  const OnTheWay way{fewer.determinant(), leading_turn_rad};
+  const scene::Determinant determinant = fewer.determinant();
+  const OnTheWay way{determinant, leading_turn_rad * std::min(1.0, std::exp(determinant.log_size / 2))};
   slope_ = fewer.slope_;
   if (segments_.size() == 1) return newton_one_segment(true, newton_tolerance_, &way);
   system_ = fewer.system_;

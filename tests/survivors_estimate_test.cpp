@@ -82,12 +82,15 @@ TEST(SurvivorsFam, TendonsThatAllButCollapse) {
 
 // Columns bent far, round but for next to nothing: a step along the azimuth changes the derivatives' determinant by a
 // factor of 30, and Newton's method with kept ones ended 5e-4, 1.6e-3 and 5.2e-3 L from the equilibrium at estimates of
-// 1e-4, 4e-6 and 5e-5 L. Tips over L: equilibria of the exact reference's equations to 1e-7 L (its certificate of FAM's
-// answers at 1e-6 L; its own path finds but the first).
+// 1e-4, 4e-6 and 5e-5 L; with those of the prediction, where the determinant is 4e4 times as large, 2.1e-3 and 5.8e-3 L
+// at 2e-5 and 4e-5 L (the last two). Tips over L: equilibria of the exact reference's equations to 1e-7 L (its
+// certificate of FAM's answers at 1e-6 L; its own path finds the first and the last two).
 TEST(SurvivorsFam, AzimuthsThatNextToNothingHolds) {
   const std::pair<std::uint64_t, Vector3d> columns[] = {{7'015, {-0.3855129, -0.5900017, 0.0373110}},
                                                         {9'035, {0.1008261, -0.1971610, -0.7762806}},
-                                                        {92'695, {-0.3121702, -0.5398713, -0.3509730}}};
+                                                        {92'695, {-0.3121702, -0.5398713, -0.3509730}},
+                                                        {36'035, {-0.5918353, 0.3268924, -0.2428087}},
+                                                        {135'895, {-0.5414702, 0.1563521, -0.4280777}}};
   for (const auto& [index, exact_over_L] : columns) {
     const Scene scene = studies::random_scene(studies::campaign_seed(1, index));
     const double length_mm = scene::length_mm(scene);
@@ -95,6 +98,17 @@ TEST(SurvivorsFam, AzimuthsThatNextToNothingHolds) {
     const Vector3d stiffer_mm = tip(by_fam(support::stiffer(scene), 1e-4 * length_mm));
     EXPECT_GT((stiffer_mm / length_mm - exact_over_L).norm(), 1e-3) << index;
   }
+}
+
+// A strip beside its buckling load: from the solution on three arcs Newton's method on six led across, to an
+// equilibrium 0.047 L from that of the growing load, at an estimate of 4e-5 L.
+TEST(SurvivorsFam, MoreArcsStayBesideTheBucklingLoad) {
+  const Scene scene = studies::random_scene(studies::campaign_seed(3, 12'305));
+  const double length_mm = scene::length_mm(scene);
+  const Equilibrium exact = by_exact(scene);
+  ASSERT_TRUE(exact.converged());
+  EXPECT_LT((tip(by_fam(scene, 1e-4 * length_mm)) - tip(exact)).norm(), 1e-4 * length_mm);
+  EXPECT_GT((tip(by_fam(support::stiffer(scene), 1e-4 * length_mm)) - tip(exact)).norm(), 1e-2 * length_mm);
 }
 
 // Follower loads turn with the section: its direction must be as good as the tolerance over L, where the tip's place
