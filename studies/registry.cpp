@@ -31,7 +31,7 @@ namespace studies {
   row(sensing, "What does the rod touch, and how sure are we?", "40 s", false) \
   row(limits, "Why is there no answer?", "30 min", true) \
   row(walks, "Does a kept solver stay on its branch?", "15 min", true) \
-  row(campaign, "How rarely is an answer wrong?", "1 h", true) \
+  row(campaign, "How rarely is an answer wrong?", "4 h", true) \
   row(random, "Is an answer ever wrong without saying so?", "30 min", true)
 // clang-format on
 

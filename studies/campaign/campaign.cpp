@@ -20,7 +20,7 @@ struct Part {
   std::uint64_t seed, scenes;
 };
 
-constexpr Part random_part{"random", 1, 630'000}, audit_part{"audit", 2, 40'000};
+constexpr Part random_part{"random", 1, 630'000}, audit_part{"audit", 2, 100'000};
 constexpr std::uint64_t first_scenes = 60;
 
 std::string text_in(const std::filesystem::path& path) {
