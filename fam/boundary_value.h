@@ -23,13 +23,14 @@ class BasicBoundaryValue {
   // From no load, which the way must start with, to the full load. converged, load_step_too_small, work_limit,
   // tendon_collapsed, not_converged or not_finite; message() says why.
   scene::Status run();
-  // Along the way from the shape that the rod had (Shooting::start_at); also limit_point.
+  // Along the way from the shape that the rod had (Shooting::start_at), if known as another one's solution, and to
+  // where the tip has turned by about so much; also limit_point.
   template <class StateAt>
-  scene::Status run_on(StateAt&& state_at) {
+  scene::Status run_on(const BasicBoundaryValue* last, const Angular<double, D>& tip_turn_B, StateAt&& state_at) {
     if (loads_overflow()) return scene::Status::not_finite;
     shooting_.forget_work();
     shooting_.start_at(state_at);
-    const scene::Status status = growth_.run_on(shooting_);
+    const scene::Status status = growth_.run_on(shooting_, last ? &last->shooting_ : nullptr, tip_turn_B);
     return status == scene::Status::converged ? place_arcs() : status;
   }
   // The full load, starting from a solution of the same spans; the arcs of both must be multiples of those which it

@@ -21,10 +21,11 @@ class Engine {
   scene::Status run();
   // From the solution of the same problem with fewer arcs; a march starts anew.
   scene::Status run_from(const Engine& fewer_arcs);
-  // Along the problem's way from the shape that the rod had: state_at(arc), SectionState<3> at an arc's distal end in
-  // the base frame, without the point loads there.
+  // Along the problem's way from the shape that the rod had, if known as another engine's solution, and to where the
+  // tip has turned by about so much: state_at(arc), SectionState<3> at an arc's distal end in the base frame, without
+  // the point loads there.
   template <class StateAt>
-  scene::Status run_on(StateAt&& state_at);
+  scene::Status run_on(const Engine* last, const Vector3d& tip_turn_B, StateAt&& state_at);
 
   // visit(solver): BasicMarch<D> or BasicBoundaryValue<D>.
   template <class Visit>
@@ -86,10 +87,12 @@ ArcExtent extent_of_arcs(const Engine& engine, std::span<const scene::Span> span
 scene::Status verdict(const Engine& engine, Law law, const ArcExtent& extent);
 
 template <class StateAt>
-scene::Status Engine::run_on(StateAt&& state_at) {
+scene::Status Engine::run_on(const Engine* last, const Vector3d& tip_turn_B, StateAt&& state_at) {
   if (is_march_) return run();
-  if (!is_planar_) return boundary_value_.run_on(state_at);
-  return planar_boundary_value_.run_on([&](int arc) {
+  const bool alike = last && !last->is_march_ && last->is_planar_ == is_planar_;
+  if (!is_planar_) return boundary_value_.run_on(alike ? &last->boundary_value_ : nullptr, tip_turn_B, state_at);
+  const Angular<double, 2> planar_turn_B = (rotation_BP_.transpose() * tip_turn_B).tail<1>();
+  return planar_boundary_value_.run_on(alike ? &last->planar_boundary_value_ : nullptr, planar_turn_B, [&](int arc) {
     const SectionState<3> state = state_at(arc);
     SectionState<2> planar;
     planar.rotation_SB = (rotation_BP_.transpose() * state.rotation_SB * rotation_BP_).topLeftCorner<2, 2>();

@@ -52,7 +52,8 @@ std::optional<Equilibrium> equilibrium_at(const scene::Scene& scene, const Optio
   problem.leave_plane();
   Run run;
   run.set(problem, saved.mesh.arcs);
-  run.status = run.engine.run_on([&](int arc) { return states[static_cast<std::size_t>(arc)]; });
+  run.status =
+      run.engine.run_on(nullptr, Vector3d::Zero(), [&](int arc) { return states[static_cast<std::size_t>(arc)]; });
   double error_mm = place.accuracy.error_mm;
   for (Run finer; run.converged() && misses(problem, error_mm); std::swap(run, finer)) {
     error_mm = estimate_by_doubling_mm(problem, run, finer);

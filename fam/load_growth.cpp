@@ -200,12 +200,13 @@ scene::Status LoadGrowth<D>::solve_known_moments(Shooting<D>& shooting) {
 
 // A fold is where steps lead nowhere and the determinant has all but vanished.
 template <int D>
-scene::Status LoadGrowth<D>::run_on(Shooting<D>& shooting) {
+scene::Status LoadGrowth<D>::run_on(Shooting<D>& shooting, const Shooting<D>* last,
+                                    const Angular<double, D>& tip_turn_B) {
   end_ = {};
   load_steps_ = 1;
   if (shooting.moments_are_known()) return solve_known_moments(shooting);
   start_ = shooting.nodes();
-  if (shooting.one_equilibrium() && shooting.solve_from_here()) return scene::Status::converged;
+  if (shooting.one_equilibrium() && shooting.solve_near(last, tip_turn_B)) return scene::Status::converged;
   shooting.set_nodes(start_);
   shooting.set_load(0);
   load_steps_ = 0;

@@ -315,6 +315,16 @@ bool Shooting<D>::solve_from_here() {
 }
 
 template <int D>
+bool Shooting<D>::solve_near(const Shooting* other, const Angular<double, D>& tip_turn_B) {
+  if (!other || segments_.size() > 1 || other->segments_.size() > 1) return solve_from_here();
+  set_load(1);
+  Rotation& tip_SB = nodes_[0].rotation_SB;
+  tip_SB = tip_SB * rotation_matrix(tip_turn_B).transpose();
+  slope_ = other->slope_;
+  return newton_one_segment(true, newton_tolerance_);
+}
+
+template <int D>
 bool Shooting<D>::solve_from(const Shooting& fewer) {
   const auto here = [&](int arc) {
     return static_cast<int>(static_cast<long long>(arc) * rod_.arc_count() / fewer.rod_.arc_count());

@@ -105,6 +105,9 @@ class Shooting {
   bool solve_at_once();
   // The full load from the nodes as they are.
   bool solve_from_here();
+  // The same near the solution of another one, whatever its arcs, from which the tip turns by about so much: of one
+  // segment, with that one's derivatives in the first step.
+  bool solve_near(const Shooting* other, const Angular<double, D>& tip_turn_B);
   // The full load from the solution of the same spans with fewer arcs, each of which became several.
   bool solve_from(const Shooting& fewer);
 

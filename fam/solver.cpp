@@ -36,6 +36,16 @@ SectionState<3> before_point_loads(SectionState<3> state, const scene::Span& spa
   return state;
 }
 
+// In the units of its derivatives (Response::by_load).
+Vector3d value_of(const scene::Load& load) {
+  return scene::visit_load(
+      load, [](const scene::Force& force) { return force.value_N; },
+      [](const scene::Moment& moment) { return moment.value_Nmm; },
+      [](const scene::DistributedForce& force) { return force.value_N_per_mm; },
+      [](const scene::Gravity& gravity) { return gravity.acceleration_m_per_s2; },
+      [](const scene::Tendon& tendon) { return Vector3d(tendon.tension_N, 0, 0); });
+}
+
 }  // namespace
 
 // What a load's arm, place and number of tendons may come to: spans end wherever a load begins or ends, now or before.
@@ -87,6 +97,19 @@ void Solver::Impl::choose_arcs(const Problem& problem) {
                  arcs_factor(problem.choice().law, problem.tolerance_mm() / problem.length_mm()));
 }
 
+// By how much, to first order, loads have turned the tip since the last solution, where its derivatives are at hand.
+Vector3d Solver::Impl::expected_tip_turn_B() {
+  Vector3d turn_B = Vector3d::Zero();
+  if (!solved_states.known || solved_states.arcs.empty()) return turn_B;
+  const scene::Scene& before = solved->problem.scene();
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    const Vector3d change = value_of(scene.loads[i]) - value_of(before.loads[i]);
+    if (change.isZero(0)) continue;
+    turn_B += response.by_load(i, solved->problem.length_mm(), Response::What::pose).bottomRows<3>() * change;
+  }
+  return turn_B;
+}
+
 Status Solver::Impl::solve_with_arcs(Attempt& attempt, bool on) {
   Run& run = attempt.run;
   run.set(attempt.problem, arcs);
@@ -95,7 +118,7 @@ Status Solver::Impl::solve_with_arcs(Attempt& attempt, bool on) {
   } else {
     std::size_t span = 0;
     int first_arc = 0;
-    run.status = run.engine.run_on([&](int arc) {
+    run.status = run.engine.run_on(&solved->run.engine, expected_tip_turn_B(), [&](int arc) {
       while (arc >= first_arc + arcs[span]) first_arc += arcs[span++];
       const scene::Span& before = attempt.problem.spans_before()[span];
       const bool at_end = arc + 1 == first_arc + arcs[span];

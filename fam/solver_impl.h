@@ -25,7 +25,7 @@ struct Solver::Impl {
   Options options;
   int most_arcs = 0;
   std::array<Attempt, 2> attempts;
-  ArcExtent extent;  // of the arcs that solve_with_arcs() solved last
+  ArcExtent extent;           // of the arcs that solve_with_arcs() solved last
   Attempt* solved = nullptr;  // the solution found last
   bool has_previous = false;  // the other attempt is the one before
   Solution solution;          // of it
@@ -55,6 +55,7 @@ struct Solver::Impl {
   Attempt& next() { return attempts[solved == &attempts[0] ? 1 : 0]; }
   Outcome solve(Start start);
   scene::Status solve_with_arcs(Attempt& attempt, bool on);
+  Vector3d expected_tip_turn_B();
   void choose_arcs(const Problem& problem);
   bool refine(Attempt& attempt);
   void accept(Attempt& attempt);

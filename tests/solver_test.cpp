@@ -118,6 +118,31 @@ TEST(Solver, LeavesThePlaneWithoutAllocating) {
   EXPECT_EQ(allocation_count(), before);
 }
 
+// A warm solve starts with the last one's derivatives, and where those of its answer are at hand with the turn that
+// they expect of the tip.
+TEST(Solver, DerivativesAtHandSaveNewtonSteps) {
+  const scene::Scene scene = uniform_rod(100, slender(1000, 700), {scene::Force{100, Frame::fixed, {0, 0.1, 0}}});
+  fam::Options options;
+  options.tolerance_mm = 1e-3;
+  const auto newton_steps = [&](bool asks) {
+    Joystick joystick(3);
+    Solver solver = kept(scene, options);
+    Vector3d force_N(0, 0.1, 0.05);
+    int steps = 0;
+    for (int round = 0; round < 50; ++round) {
+      solver.set_force_N(0, force_N += joystick.vector(0.003));
+      const auto outcome = solver.solve();
+      EXPECT_TRUE(outcome.converged());
+      steps += outcome.newton_steps;
+      if (asks) {
+        EXPECT_TRUE(solver.by_load(0, 100).allFinite());
+      }
+    }
+    return steps;
+  };
+  EXPECT_LT(newton_steps(true), newton_steps(false) - 25);
+}
+
 // Warm and cold lead to one answer where the rod has but one; the twin, a stiffer rod, is seen.
 TEST(Solver, WarmIsCold) {
   Joystick joystick(2);
