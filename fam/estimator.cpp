@@ -36,7 +36,12 @@ constexpr double clear_information = 1e-9;   // of pivots, above which no direct
 constexpr double longest_step = 2;           // in the unknowns' own units
 constexpr double longest_place_step = 0.2;   // of the length
 constexpr double good_share = 0.9;           // of the decrease that a step promised: the damping falls fast
-constexpr int more_starts = 12;              // where places are unknown and the first minimum does not fit
+// Of steps that fall faster the closer they end to where their slopes were taken, a rate that steps of at most so many
+// standard deviations tell; the last step is left to three times that. Measured on 2200 estimates of the study's tip
+// forces and contacts: 20 are left more than 1e-4 deviations off, none more than 1.4e-3; with a rate from longer steps
+// 0.09.
+constexpr double longest_reach = 10, sure_rate = 3;
+constexpr int more_starts = 12;  // where places are unknown and the first minimum does not fit
 
 // The digits of a number mirrored at the point: 1/2, 1/4, 3/4, ... of base 2 (Halton, Numer. Math. 2, 1960).
 double radical_inverse(int number, int base) {
@@ -54,9 +59,10 @@ struct Estimator::Impl {
   // Of Gauss-Newton: x, where the rods stand, and rows at x and at the trial.
   VectorXd x, stand, start, trial, moved, gradient, scaling, along, residual, trial_residual;
   MatrixXd slopes, information, damped, vectors;
-  Eigen::LDLT<MatrixXd> factors;
+  Eigen::LDLT<MatrixXd> factors, damped_factors;  // of the information, damped
   Posterior posterior;
   bool solved_at_x = false;  // the rods, and the slopes are those at x or near it
+  bool has_factors = false;  // of these slopes
 
   Impl(scene::EstimationProblem problem, const Options& asked)
       : rows(std::move(problem), asked), posterior(static_cast<Index>(rows.given().unknowns.size())) {
@@ -72,7 +78,7 @@ struct Estimator::Impl {
     for (VectorXd* v : {&residual, &trial_residual}) v->resize(rows.count());
     slopes.resize(rows.count(), count);
     for (MatrixXd* m : {&information, &damped, &vectors, &result.covariance}) m->resize(count, count);
-    factors = Eigen::LDLT<MatrixXd>(count);
+    for (Eigen::LDLT<MatrixXd>* f : {&factors, &damped_factors}) *f = Eigen::LDLT<MatrixXd>(count);
     result.observable.resize(static_cast<std::size_t>(count));
   }
 
@@ -94,6 +100,7 @@ struct Estimator::Impl {
   }
 
   bool renew_slopes() {
+    has_factors = false;
     solved_at_x = rows.put_slopes(slopes);
     return solved_at_x || fail(Status::not_finite, "a derivative is not finite");
   }
@@ -108,9 +115,19 @@ struct Estimator::Impl {
     step *= share;
   }
 
-  // How much a full step could bring chi-squared down: g^T H^-1 g where H is not small.
+  // The full step's size in standard deviations, the root of what it could bring chi-squared down by: g^T H^-1 g where
+  // H is not small.
+  double full_step() {
+    if (!has_factors) {
+      information.noalias() = slopes.transpose() * slopes;
+      factors.compute(information);
+      has_factors = true;
+    }
+    gradient.noalias() = slopes.transpose() * residual;
+    return information.diagonal().maxCoeff() > 0 ? std::sqrt(possible_decrease()) : 0;
+  }
+
   double possible_decrease() {
-    factors.compute(information);
     if (factors.vectorD().minCoeff() > clear_information * factors.vectorD().maxCoeff()) {
       along = factors.solve(gradient);
       return gradient.dot(along);
@@ -130,8 +147,8 @@ struct Estimator::Impl {
   double step(double damping) {
     damped = information;
     damped.diagonal() += damping * scaling;
-    factors.compute(damped);
-    moved = factors.solve(gradient);
+    damped_factors.compute(damped);
+    moved = damped_factors.solve(gradient);
     moved = -moved;
     limit(moved);
     trial = x + moved;
@@ -156,15 +173,34 @@ struct Estimator::Impl {
     return std::nullopt;
   }
 
-  // The last step is as good without the rods solved there where the next one would be below what ends the iteration:
-  // the sizes fall at least as they did from the step before.
-  bool is_last(double size, double last_size, double chi_squared) const {
-    return solved_at_x && size * size * size * size <= last_size * last_size * converged_decrease * (1 + chi_squared);
-  }
+  // Steps in standard deviations. Each leaves to the next one a share that grows with how far its end is from where its
+  // slopes were taken, at the rate that the last one told.
+  struct Steps {
+    double way = 0;  // since the slopes were taken
+    double last_size = 0, last_reach = 0, rate = HUGE_VAL;
+
+    void take(double size) {
+      last_size = size;
+      last_reach = way += size;
+    }
+    void see_left(double size) {
+      rate = last_size > 0 && last_reach < longest_reach ? size / (last_size * last_reach) : HUGE_VAL;
+    }
+    double left_by(double size, double from_way) const { return rate * size * (from_way + size); }
+    // Whether what this step leaves is small, so that the rods need not be solved there.
+    bool is_last(double size, double from_way, double small) const {
+      return sure_rate * left_by(size, from_way) <= small;
+    }
+    // Old slopes do for the last step but one, not for the last, nor for what it tells.
+    bool want_new_slopes(double size, double small) const {
+      const bool is_last_but_one = left_by(left_by(size, way), 0) <= small;
+      return way > small_step && (size <= small || is_last(size, 0, small) || !is_last_but_one);
+    }
+  };
 
   // False: a bound or a limit shortens the step.
-  bool take_last_step(double possible) {
-    if (!(step(least_damping) > good_share * possible)) return false;
+  bool take_last_step(double size) {
+    if (!(step(least_damping) > good_share * size * size)) return false;
     x.swap(trial);
     residual.noalias() += slopes * moved;
     return true;
@@ -173,34 +209,34 @@ struct Estimator::Impl {
   bool minimise() {
     const bool warm = solved_at_x;
     if (!evaluate()) return false;
-    double damping = warm ? warm_damping : first_damping, chi_squared = residual.squaredNorm(), way = 0;
-    double last_size = 0;  // in standard deviations
+    double damping = warm ? warm_damping : first_damping, chi_squared = residual.squaredNorm();
+    bool as_promised = true;
+    Steps steps;
     for (result.iterations = 0; result.iterations < most_iterations; ++result.iterations) {
-      information.noalias() = slopes.transpose() * slopes;
-      gradient.noalias() = slopes.transpose() * residual;
-      const double largest = information.diagonal().maxCoeff();
-      const double possible = largest > 0 ? possible_decrease() : 0;
+      const double small = std::sqrt(converged_decrease * (1 + chi_squared));
+      double size = full_step();
+      steps.see_left(size);
+      if (!as_promised || steps.want_new_slopes(size, small)) {
+        if (!renew_slopes()) return false;
+        steps.way = 0;
+        steps.see_left(size = full_step());
+      }
       stand = x;
-      if (!(possible > converged_decrease * (1 + chi_squared))) return true;
-      if (is_last(std::sqrt(possible), last_size, chi_squared) && take_last_step(possible)) return true;
-      scaling = information.diagonal().cwiseMax(least_scaling * largest);
-      const std::optional<double> promised = descend(damping, chi_squared, possible);
-      if (!promised && solved_at_x && way > 0 && renew_slopes()) {
-        way = 0;
+      if (!(size > small)) return true;
+      if (solved_at_x && steps.is_last(size, steps.way, small) && take_last_step(size)) return true;
+      scaling = information.diagonal().cwiseMax(least_scaling * information.diagonal().maxCoeff());
+      const std::optional<double> promised = descend(damping, chi_squared, size * size);
+      if (!promised && solved_at_x && steps.way > 0) {
+        as_promised = false;
         continue;
       }
       if (!promised) return is_flat(chi_squared);
-      last_size = std::sqrt(moved.dot(along));
-      way += last_size;
+      steps.take(std::sqrt(moved.dot(along)));
       x.swap(trial);
       residual.swap(trial_residual);
       solved_at_x = true;
       const double decrease = chi_squared - residual.squaredNorm();
-      const bool as_promised = decrease > good_share * *promised;
-      if (way > small_step || !as_promised) {
-        if (!renew_slopes()) return false;
-        way = 0;
-      }
+      as_promised = decrease > good_share * *promised;
       damping = std::max(least_damping, damping * (as_promised ? 1e-3 : 0.1));
       chi_squared -= decrease;
     }

@@ -26,7 +26,8 @@ struct Estimate {
   // In the order of the unknowns, in the units of the scene. NaN: not observable.
   Eigen::VectorXd mean, sd;
   std::vector<bool> observable;
-  // The inverse of J^T J at the solution; rows and columns of what is not observable are NaN.
+  // The inverse of J^T J, J from no farther off than the last, small step; rows and columns of what is not observable
+  // are NaN.
   Eigen::MatrixXd covariance;
   // The directions of the unknowns (in units of their own, of length 1) of which the measurements tell nothing: whose
   // posterior is no narrower than 0.9 of the prior, or, without a prior, of which their information is below 1e-12 of

@@ -30,6 +30,7 @@ Posterior::Posterior(Index unknowns)
       hidden_(unknowns) {}
 
 // In units of the priors, where there is none one so wide that observed_information is what counts as observed.
+// Where all are as wide, the directions are those of the information itself.
 void Posterior::set(const Eigen::Ref<const MatrixXd>& slopes, const VectorXd& prior_sd) {
   const Index count = prior_sd.size();
   const double least = 1 / (widest_posterior * widest_posterior) - 1;  // information over the prior's
@@ -39,9 +40,10 @@ void Posterior::set(const Eigen::Ref<const MatrixXd>& slopes, const VectorXd& pr
   const double largest = std::max(diagonal_.diagonal().maxCoeff(), std::numeric_limits<double>::min());
   for (Index k = 0; k < count; ++k)
     width_[k] = std::isnan(prior_sd[k]) ? std::sqrt(least / (observed_information * largest)) : prior_sd[k];
-  for (Index i = 0; i < count; ++i)
-    for (Index k = 0; k < count; ++k) information_(i, k) *= width_[i] * width_[k];
-  diagonalise(information_, vectors_);
+  const bool as_wide = width_.minCoeff() == width_.maxCoeff();
+  const auto& in_widths = as_wide ? diagonal_ : information_;
+  information_ = width_.asDiagonal() * in_widths * width_.asDiagonal();
+  if (!as_wide) diagonalise(information_, vectors_);
   covariance_.setZero();
   hidden_.setZero();
   unobservable_.clear();

@@ -390,17 +390,82 @@ TEST(Estimator, AStreamTakesNoMemory) {
   EXPECT_LT((estimator.track().mean - 0.7 * true_force_N).norm(), 1e-3);
 }
 
+// Central differences of the exact rod's tip by its force.
+Eigen::Matrix3d exact_slopes_mm_per_N(const Vector3d& force_N) {
+  constexpr double step_N = 1e-3;
+  const auto tip_mm = [](const Vector3d& tip_N) {
+    return exact_reference::solve(rod_under({force(L_mm, tip_N)}), {}).stations.back().X_BS.position_B_mm;
+  };
+  Eigen::Matrix3d slopes;
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d change_N = step_N * Vector3d::Unit(k);
+    slopes.col(k) = (tip_mm(force_N + change_N) - tip_mm(force_N - change_N)) / (2 * step_N);
+  }
+  return slopes;
+}
+
+// A stream that jumps by up to four deviations finds the forces of exact shapes, with the deviations that the exact
+// rod's own slopes give there. Measured: forces within 0.002 deviations, deviations within 0.07 %; a rod 5 %
+// stiffer: 3.
+TEST(Estimator, AStreamIsAsSureAsTheExactRodIs) {
+  constexpr double sd_mm = 0.01;
+  const auto errors = [&](const scene::Scene& start) {
+    Estimator estimator({{{start, {position({}, sd_mm)}}}, components(0, {0, 1, 2}, start)});
+    Eigen::Vector2d worst(0, 0);  // of the forces, in deviations; of the deviations
+    for (const double axial_N : {0.1, 0.6, 0.0, 0.8, 0.4, -0.2, 0.2, 0.3}) {
+      const Vector3d force_N(axial_N, 0.5 + 0.1 * axial_N, -0.3);
+      const scene::Equilibrium exact = exact_reference::solve(rod_under({force(L_mm, force_N)}), {});
+      estimator.set_measurement(0, 0, position(exact.stations.back(), sd_mm));
+      const Estimate& found = estimator.track();
+      EXPECT_TRUE(found.converged()) << found.message;
+      const Eigen::Matrix3d slopes = exact_slopes_mm_per_N(force_N) / sd_mm;
+      const Vector3d sd_N = (slopes.transpose() * slopes).inverse().diagonal().cwiseSqrt();
+      worst[0] = std::max(worst[0], (slopes * (found.mean - force_N)).norm());
+      worst[1] = std::max(worst[1], (found.sd.cwiseQuotient(sd_N).array() - 1).abs().maxCoeff());
+    }
+    return worst;
+  };
+  const scene::Scene start = rod_under({force(L_mm, Vector3d::Zero())});
+  const Eigen::Vector2d worst = errors(start);
+  EXPECT_LT(worst[0], 0.03);  // the model's own error, as it is asked for
+  EXPECT_LT(worst[1], 0.005);
+  EXPECT_GT(errors(support::stiffer(start))[0], 1);
+}
+
+// Priors of different widths, and none, add what they know to what the exact rod's slopes tell.
+TEST(Estimator, PriorsOfDifferentWidthsAddTheirInformation) {
+  constexpr double sd_mm = 0.01;
+  const scene::Equilibrium exact = exact_reference::solve(rod_under({force(L_mm, true_force_N)}), {});
+  const scene::Scene start = rod_under({force(L_mm, true_force_N)});
+  EstimationProblem problem{{{start, {position(exact.stations.back(), sd_mm)}}}, components(0, {0, 1, 2}, start)};
+  const Eigen::Matrix3d slopes = exact_slopes_mm_per_N(true_force_N) / sd_mm;
+  Eigen::Matrix3d information = slopes.transpose() * slopes;
+  const Vector3d unaided_sd_N = information.inverse().diagonal().cwiseSqrt();
+  const Vector3d prior_sd_N(unaided_sd_N[0], 3 * unaided_sd_N[1], HUGE_VAL);
+  problem.unknowns[0].prior_sd = prior_sd_N[0];
+  problem.unknowns[1].prior_sd = prior_sd_N[1];
+  information.diagonal() += prior_sd_N.cwiseAbs2().cwiseInverse();
+  const Estimate found = Estimator(problem).estimate();
+  ASSERT_TRUE(found.converged()) << found.message;
+  const Eigen::Matrix3d covariance = information.inverse();
+  EXPECT_LT((found.covariance - covariance).norm(), 2e-3 * covariance.norm());  // measured 2.4e-5
+}
+
 // What the estimator keeps from one estimate to the next is of the deviations that it was told.
 TEST(Estimator, NewDeviationsCount) {
   const scene::Scene start = rod_under({force(L_mm, Vector3d::Zero())});
   const scene::Equilibrium exact = exact_reference::solve(rod_under({force(L_mm, true_force_N)}), {});
   Estimator estimator({{{start, {position(exact.stations.back(), 0.01)}}}, components(0, {0, 1, 2}, start)});
-  const Eigen::VectorXd sd = estimator.estimate().sd;
-  estimator.set_measurement(0, 0, position(exact.stations.back(), 0.02));
-  const Estimate wider = estimator.estimate();
-  ASSERT_TRUE(wider.converged());
-  EXPECT_EQ(wider.iterations, 0);
-  for (int k = 0; k < 3; ++k) EXPECT_NEAR(wider.sd[k] / sd[k], 2, 1e-6);  // linear in the deviation
+  estimator.estimate();
+  const auto told = [&](double sd_mm) {
+    estimator.set_measurement(0, 0, position(exact.stations.back(), sd_mm));
+    const Estimate found = estimator.estimate();
+    EXPECT_TRUE(found.converged());
+    EXPECT_EQ(found.iterations, 0);
+    return found.sd;
+  };
+  const Eigen::VectorXd wider = told(0.02), sd = told(0.01);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(wider[k] / sd[k], 2, 1e-6);  // linear in the deviation
 }
 
 // Near its buckling load a straight rod's trial steps end on other branches, that the next ones must not start from.
