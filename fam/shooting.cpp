@@ -35,8 +35,7 @@ void Shooting<D>::set(const LoadWay& way, std::span<const int> arcs_per_span, La
     least_stiffness_Nmm2_ = std::min(least_stiffness_Nmm2_, least_stiffness_Nmm2(span));
   cut_into_segments();
   moments_are_known_ = scene::moments_are_known(way.to);
-  has_few_arcs_ = one_equilibrium() && rod_.arc_count() >= 4 * static_cast<int>(way.to.size());
-  if (has_few_arcs_) set_few_arcs();
+  if (has_few_arcs()) reserve_few_arcs();
 }
 
 template <int D>
@@ -110,18 +109,34 @@ void Shooting<D>::cut_into_segments() {
 }
 
 template <int D>
-void Shooting<D>::set_few_arcs() {
+bool Shooting<D>::has_few_arcs() const {
+  return one_equilibrium() && rod_.arc_count() >= 4 * static_cast<int>(rod_.way().to.size());
+}
+
+// So that solve_at_once() takes none.
+template <int D>
+void Shooting<D>::reserve_few_arcs() {
+  const std::size_t spans = rod_.way().to.size();
+  std::size_t tendons = 0;
+  for (const scene::Span& span : rod_.way().to) tendons = std::max(tendons, span.tendons.size());
+  if (!few_arcs_) few_arcs_ = std::make_unique<Shooting>();
+  few_arcs_->reserve({static_cast<std::size_t>(rod_.arc_count()) / 4 + spans, spans, tendons});
+  few_counts_.reserve(spans);
+}
+
+template <int D>
+bool Shooting<D>::solve_few_arcs() {
   few_counts_.assign(rod_.arcs_per_span().begin(), rod_.arcs_per_span().end());
   for (int& count : few_counts_) count = std::max(1, count / 4);
-  if (!few_arcs_) few_arcs_ = std::make_unique<Shooting>();
   few_arcs_->set(rod_.way(), few_counts_, rod_.law(), rod_.model(), 1e-3);
+  few_arcs_->forget_work();
+  return few_arcs_->segments_.size() == 1 && few_arcs_->solve_at_once();
 }
 
 template <int D>
 void Shooting<D>::forget_work() {
   newton_steps_ = 0;
   rod_.forget_collapse();
-  if (has_few_arcs_) few_arcs_->forget_work();
 }
 
 template <int D>
@@ -297,7 +312,7 @@ bool Shooting<D>::newton(double tolerance, const OnTheWay* way) {
 
 template <int D>
 bool Shooting<D>::solve_at_once() {
-  if (has_few_arcs_ && few_arcs_->segments_.size() == 1 && few_arcs_->solve_at_once()) {
+  if (has_few_arcs() && solve_few_arcs()) {
     set_load(1);
     nodes_ = few_arcs_->nodes_;
     slope_ = few_arcs_->slope_;

@@ -148,7 +148,9 @@ class Shooting {
 
  private:
   void cut_into_segments();
-  void set_few_arcs();
+  bool has_few_arcs() const;
+  void reserve_few_arcs();
+  bool solve_few_arcs();
   template <int N>
   void evaluate_segment(std::size_t k, SegmentEquations& equations) const;
   // Of the state that a march of segment k arrives with.
@@ -178,7 +180,6 @@ class Shooting {
   BandSystem<rotations + unknowns - 1, 2 * unknowns - rotations - 1> system_;  // of several segments
   Eigen::Matrix<double, rotations, rotations> slope_;                          // of one segment
   bool moments_are_known_ = false;
-  bool has_few_arcs_ = false;
   std::unique_ptr<Shooting> few_arcs_;  // a quarter of the arcs, where the full load is solved for at once
   std::vector<int> few_counts_;
   int newton_steps_ = 0;

@@ -88,10 +88,10 @@ scene::Pose Solution::pose(const Place& place) const {
   return result;
 }
 
-SectionState<3> Solution::state(const Place& place) const {
+SectionState<3> Solution::state(const Place& place, const scene::Pose& pose_there) const {
   const Matrix3d& rotation_BP = problem_->choice().rotation_BP;
   SectionState<3> state;
-  state.rotation_SB = pose(place).rotation_BS.transpose();
+  state.rotation_SB = pose_there.rotation_BS.transpose();
   run_->engine.visit([&](const auto& solver) {
     const auto rod = solver.solved();
     const auto wrench = ArcInterior(rod, rod.spans[span_of(place.arc)], place.arc).wrench(place.fraction);

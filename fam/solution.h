@@ -29,7 +29,8 @@ class Solution {
   scene::Pose pose(const Place& place) const;
   // Base axes in the section frame, and the total internal wrench there as the law carries it (coupled laws); at an
   // arc's distal end with the loads at that place.
-  SectionState<3> state(const Place& place) const;
+  SectionState<3> state(const Place& place) const { return state(place, pose(place)); }
+  SectionState<3> state(const Place& place, const scene::Pose& pose_there) const;
   // What the section there is turned about the tangent beyond the rod that was solved: of a round rod, by GJ; else 0.
   double twist_rad(const Place& place) const;
   // The rod's own, as scene::Station has it.

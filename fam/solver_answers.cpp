@@ -34,7 +34,7 @@ void Solver::Impl::take_states(const Solution& from, std::span<const int> arcs_p
   for (int arc = 0; arc < from.arc_count(); ++arc) {
     const scene::Pose pose = from.pose({arc, 1});
     poses.push_back({pose.rotation_BS, pose.position_B_mm});
-    wrenches.push_back(from.state({arc, 1}).wrench);
+    wrenches.push_back(from.state({arc, 1}, pose).wrench);
   }
 }
 
