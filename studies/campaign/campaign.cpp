@@ -21,7 +21,7 @@ struct Part {
 };
 
 // The chunks of `random` are few enough to be committed: its run goes on from them on another machine.
-constexpr Part random_part{"random", 1, 630'000, 10'000}, audit_part{"audit", 2, 100'000, 100};
+constexpr Part random_part{"random", 1, 1'000'000, 10'000}, audit_part{"audit", 2, 100'000, 100};
 constexpr std::uint64_t first_scenes = 60;
 
 std::string text_in(const std::filesystem::path& path) {

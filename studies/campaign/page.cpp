@@ -93,14 +93,16 @@ Table audit_table(const Tally& audit) {
 }
 
 // Answers that are not right, one a row.
-Table failures_table(const Tally& random) {
+std::string failures_text(const Tally& random) {
   Table table({"what", "kind of scene", "numbers", "seed"});
+  bool any = false;
   for (const Tally::Failure& failure : random.failures()) {
     const bool is_answer = failure.outcome.starts_with("wrong") || failure.outcome == "tolerance missed";
     if (!is_answer) continue;
     table.add({failure.outcome, failure.kind, failure.numbers, std::to_string(campaign_seed(1, failure.index))});
+    any = true;
   }
-  return table;
+  return any ? table.markdown() : "No answer of this run.\n";
 }
 
 std::string picture(const Tally& random) {
@@ -156,7 +158,7 @@ std::map<std::string, std::string> campaign_files(const CampaignData& data, cons
   page.set("no_answer_share", share(no_answer, scenes));
   page.set("outcomes", outcomes_table(random).markdown());
   page.set("audit", audit_table(data.audit).markdown());
-  page.set("failures", failures_table(random).markdown());
+  page.set("failures", failures_text(random));
   page.set_time("timing", data.timing);
   const std::string answer =
       fmt::format("of {} judged answers to {} random scenes {} are wrong without saying so (rate below {} at 95 %)",
