@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <map>
 #include <random>
@@ -194,6 +195,18 @@ TEST(Campaign, TalliesOfPartsAddUpInAnyOrder) {
   EXPECT_THROW(Tally::from_text("nonsense\n"), std::runtime_error);
   scenes.pop_back();
   EXPECT_NE(tally_of(scenes).text(), whole);
+}
+
+// Where a distance is not known, it is counted in the last bin and is not the worst.
+TEST(Campaign, TheWorstAreNumbers) {
+  Tally tally;
+  for (std::uint64_t i = 0; i < 20; ++i)
+    tally.add({i, "general", "no judge", true, {{"position", i < 15 ? HUGE_VAL : static_cast<double>(i)}}});
+  const auto& worst = tally.worst().at("position");
+  ASSERT_EQ(worst.size(), 5u);
+  EXPECT_EQ(worst.begin()->index, 19u);
+  EXPECT_EQ(tally.histograms().at("position").at(studies::bin_of(HUGE_VAL)), 15u);
+  EXPECT_EQ(tally.failures().size(), 20u);
 }
 
 // Clopper and Pearson's one-sided bounds: none of n, 1 - 0.05^(1/n); one of ten 0.3942 (tables of the binomial

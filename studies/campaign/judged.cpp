@@ -13,10 +13,12 @@ Judged judged(const scene::Scene& scene, const scene::Equilibrium& answer, doubl
   result.certificate = exact_reference::certify(scene, answer, tolerances.certificate);
   result.position = result.certificate.position;
   result.tip = result.certificate.tip_position;
+  result.tolerance = tolerances.certificate;
   if (!ask_exact && result.certificate.holds(allowed)) return result;
   const double length_mm = scene::length_mm(scene);
   result.exact = exact_reference::solve(scene, {exact_reference::RodModel::reissner, tolerances.exact});
   if (!result.by_exact()) return result;
+  result.tolerance = tolerances.exact;
   result.position = largest_distance_mm(answer, *result.exact) / length_mm;
   result.tip = (answer.tip().position_B_mm - result.exact->tip().position_B_mm).norm() / length_mm;
   return result;

@@ -13,6 +13,7 @@ struct Judged {
   exact_reference::Certificate certificate;
   std::optional<scene::Equilibrium> exact;  // where it was asked
   double position = 0, tip = 0;             // errors over L, by the exact reference where it was asked and converged
+  double tolerance = 0;                     // of the judge that told these, over L
   bool by_exact() const { return exact && exact->converged(); }
   std::string certified_by() const;  // "certified: ", and what the certificate goes by; its branch is not doubtful
 };

@@ -41,6 +41,11 @@ bool tells(const scene::Equilibrium& answer, double error, double length_mm) {
   return answer.error_estimate_mm / length_mm >= error / 3;
 }
 
+// Of an error that is not the judge's own; the estimate over L.
+void add_share_of_estimate(SceneOutcome& outcome, const Judged& by, double estimate) {
+  if (by.position > 3 * by.tolerance) outcome.measures.push_back({"error / estimate", by.position / estimate});
+}
+
 SceneOutcome random_outcome(std::uint64_t campaign, std::uint64_t index) {
   SceneOutcome outcome = started(campaign, index);
   const scene::Scene scene = random_scene(campaign_seed(campaign, index));
@@ -64,8 +69,7 @@ SceneOutcome random_outcome(std::uint64_t campaign, std::uint64_t index) {
     outcome.outcome = by.certificate.holds(missed) ? "right: sample" : "right: certificate doubted";
   }
   outcome.measures = {{"position", by.position}};
-  if (by.position > judges_error)
-    outcome.measures.push_back({"error / estimate", by.position / (answer.error_estimate_mm / length_mm)});
+  add_share_of_estimate(outcome, by, answer.error_estimate_mm / length_mm);
   if (by.certificate.found) {
     outcome.measures.push_back({"rotation_rad", by.certificate.rotation_rad});
     outcome.measures.push_back({"wrench", by.certificate.wrench});
@@ -131,9 +135,7 @@ SceneOutcome promise_outcome(std::uint64_t campaign, std::uint64_t index) {
   else if (by.position - judges_error > tolerance) set_failure(outcome, "missed");
   else outcome.outcome = "kept";
   outcome.measures = {{"error / tolerance", by.position / tolerance}};
-  if (by.position > judges_error)
-    outcome.measures.push_back(
-        {"error / estimate", by.position / (answer.error_estimate_mm / scene::length_mm(scene))});
+  add_share_of_estimate(outcome, by, answer.error_estimate_mm / scene::length_mm(scene));
   return outcome;
 }
 

@@ -34,6 +34,7 @@ int bin_of(double value) {
 }
 
 void Tally::keep(const std::string& measure, const Worst& worst) {
+  if (!std::isfinite(worst.value)) return;
   std::set<Worst>& list = worst_[measure];
   list.insert(worst);
   if (list.size() > worst_kept) list.erase(std::prev(list.end()));

@@ -1,5 +1,5 @@
-// What a campaign keeps of its scenes: counts, histograms, the worst by each measure, every failure. Tallies of parts
-// add up to that of the whole, whatever the parts and their order, to the byte.
+// What a campaign keeps of its scenes: counts, histograms, the worst by each measure where it is finite, every failure.
+// Tallies of parts add up to that of the whole, whatever the parts and their order, to the byte.
 #pragma once
 
 #include <array>
