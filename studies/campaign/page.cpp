@@ -102,7 +102,7 @@ std::string failures_text(const Tally& random) {
     table.add({failure.outcome, failure.kind, failure.numbers, std::to_string(campaign_seed(1, failure.index))});
     any = true;
   }
-  return any ? table.markdown() : "No answer of this run.\n";
+  return any ? table.markdown() : "No answer of this run was wrong or missed its tolerance.\n";
 }
 
 std::string picture(const Tally& random) {
