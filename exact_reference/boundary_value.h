@@ -1,9 +1,9 @@
 // Every scene as a boundary value problem: multiple shooting (shooting.h) on the branch that grows from the unloaded
 // rod.
 //
-// The load grows from nothing with a tangent predictor. A step is taken back and halved when Newton's iteration fails,
-// when it moves a section by more than 0.1 rad from the prediction, or when the step turns a section by more than
-// 0.8 rad; so the answer does not jump to another equilibrium. At a fold (the rod snaps) the step shrinks to nothing:
+// The load grows from nothing with a predictor (prediction.h). A step is taken back and halved when Newton's iteration
+// fails, moves a section by more than 0.1 rad from the prediction, or turns one by more than 2 rad; so the answer does
+// not jump to another equilibrium. At a fold (the rod snaps) the step shrinks to nothing:
 // status limit_point where limit.h finds it ahead, else load_step_too_small. work_limit: more than 3000 load steps, or
 // seconds of work (intervals linearised, on the way and on the fine mesh). tendon_collapsed: the load cannot grow
 // because a tendon's path has no length somewhere. not_converged: a rest shape that turns by more than 1e4 rad, or a

@@ -3,8 +3,8 @@
 // factorised derivatives turns them into the distance to an equilibrium of these equations. Nothing of the other method
 // but its stations is used; where all loads follow, the equilibrium is the only one.
 //
-// Whether the growing load leads to that equilibrium is told by signs and by unloading the rod from it; where that
-// takes too much work, by signs alone. That they suffice is measured, not proved (study `campaign`).
+// Whether the growing load leads to that equilibrium is told by signs and by unloading the rod from it. That they
+// suffice is measured, not proved (study `campaign`); that signs alone do not, too.
 #pragma once
 
 #include "exact_reference/scaled_rod.h"
@@ -21,7 +21,7 @@ struct Certificate {
              // (load_size() < 1)
     walked,  // signs hold, and the rod unloads from it to the unloaded rod, no step a jump (leads_back)
     signs,   // the determinant's sign is the unloaded rod's, and no direction lets the energy fall, where there is one;
-             // a path back takes too much work
+             // a path back takes too much work (coils, cables): no certificate, but no doubt either
     doubtful  // a sign is another, or the rod does not unload so
   };
   // Newton's iteration from the stations ended at an equilibrium, the mesh refined to the tolerance. Else the numbers
@@ -35,8 +35,10 @@ struct Certificate {
   double wrench = HUGE_VAL;  // forces over the largest, moments over the largest, of any station
   Branch branch = Branch::doubtful;
 
-  // Within `allowed` of an equilibrium, over L, on no doubtful branch.
-  bool holds(double allowed) const { return found && position <= allowed && branch != Branch::doubtful; }
+  // Within `allowed` of an equilibrium, over L.
+  bool is_near(double allowed) const { return found && position <= allowed; }
+  // And that is the one which the growing load leads to.
+  bool holds(double allowed) const { return is_near(allowed) && (branch == Branch::alone || branch == Branch::walked); }
 };
 
 // The answer: converged, its stations at all places where sections change or point loads stand at least, less than half

@@ -198,6 +198,7 @@ bool Shooting<D>::newton_one_segment(bool fresh_slope, double tolerance, const O
   Angular<double, D> step = Angular<double, D>::Zero();
   Angular<double, D> last_residual = step;
   double last = std::numeric_limits<double>::infinity();
+  double last_log = fresh_slope ? determinant().log_size : std::numeric_limits<double>::quiet_NaN();
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
     ++newton_steps_;
     Angular<double, D> residual;
@@ -222,8 +223,12 @@ bool Shooting<D>::newton_one_segment(bool fresh_slope, double tolerance, const O
     const double shrinkage = std::isfinite(last) ? std::min(size / last, 0.1) : 0.1;
     const double next = fresh_slope ? size * shrinkage : newton_curvature * size * size;
     expected_turn_rad_ = next;
-    if (next <= tolerance) return equations.mismatch_is_small;
-    fresh_slope = slopes_last(fresh_slope, size, last);
+    const scene::Determinant now = determinant();
+    const bool tells = !(std::abs(now.log_size - last_log) > most_log_change);
+    last_log = now.log_size;
+    if (tells && next <= tolerance) return equations.mismatch_is_small;
+    const bool may_keep = fresh_slope || !way || !(way->near_critical || scene::has_fallen(way->start, now));
+    fresh_slope = tells && may_keep && slopes_last(fresh_slope, size, last);
     last = size;
   }
   return false;

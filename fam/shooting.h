@@ -18,7 +18,9 @@
 
 namespace fam {
 
-constexpr double segment_load_length = 1.6;      // chosen, not measured
+// With 1.6 in its place robots of several segments take 1.3 to 1.7 times the instructions; with 4 one column of 3000
+// campaign scenes is 0.1 L off, with 3 none of 15 600.
+constexpr double segment_load_length = 3;
 constexpr double largest_newton_turn_rad = 0.5;  // of a node in a step, which is shortened beyond; chosen, not measured
 constexpr int max_newton_steps = 20;
 constexpr int most_stalled_steps = 2;  // longer than half the last; beside a critical point one is no bad sign

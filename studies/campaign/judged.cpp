@@ -14,7 +14,7 @@ Judged judged(const scene::Scene& scene, const scene::Equilibrium& answer, doubl
   result.position = result.certificate.position;
   result.tip = result.certificate.tip_position;
   result.tolerance = tolerances.certificate;
-  if (!ask_exact && result.certificate.holds(allowed)) return result;
+  if (!ask_exact && (result.certificate.holds(allowed) || result.by_signs(allowed))) return result;
   const double length_mm = scene::length_mm(scene);
   result.exact = exact_reference::solve(scene, {exact_reference::RodModel::reissner, tolerances.exact});
   if (!result.by_exact()) return result;
@@ -24,15 +24,15 @@ Judged judged(const scene::Scene& scene, const scene::Equilibrium& answer, doubl
   return result;
 }
 
-std::string Judged::certified_by() const {
-  using Branch = exact_reference::Certificate::Branch;
-  switch (certificate.branch) {
-    case Branch::alone: return "certified: the only equilibrium";
-    case Branch::walked: return "certified: path back";
-    case Branch::signs:
-    case Branch::doubtful: break;
-  }
-  return "certified: signs of the branch";
+bool Judged::by_signs(double allowed) const {
+  return certificate.is_near(allowed) && certificate.branch == exact_reference::Certificate::Branch::signs;
+}
+
+std::string Judged::verdict(double allowed) const {
+  if (by_signs(allowed)) return "signs alone";
+  if (!certificate.holds(allowed)) return "doubted";
+  const bool alone = certificate.branch == exact_reference::Certificate::Branch::alone;
+  return alone ? "certified: the only equilibrium" : "certified: path back";
 }
 
 }  // namespace studies

@@ -57,7 +57,7 @@ SceneOutcome random_outcome(std::uint64_t campaign, std::uint64_t index) {
   }
   const Judged by = judged(scene, answer, missed, in_sample(index, exact_every));
   if (!by.exact) {
-    outcome.outcome = by.certified_by();
+    outcome.outcome = by.verdict(missed);
   } else if (!by.by_exact()) {
     set_failure(outcome, "no judge");
   } else if (by.tip > wrong) {
@@ -66,7 +66,7 @@ SceneOutcome random_outcome(std::uint64_t campaign, std::uint64_t index) {
   } else if (by.position > missed) {
     set_failure(outcome, "tolerance missed");
   } else {
-    outcome.outcome = by.certificate.holds(missed) ? "right: sample" : "right: certificate doubted";
+    outcome.outcome = by.verdict(missed) == "doubted" ? "right: certificate doubted" : "right: sample";
   }
   outcome.measures = {{"position", by.position}};
   add_share_of_estimate(outcome, by, answer.error_estimate_mm / length_mm);
@@ -104,7 +104,7 @@ SceneOutcome audit_outcome(std::uint64_t campaign, std::uint64_t index) {
   }
   const Judged by = judged(scene, answer, missed, true);
   const bool holds = by.certificate.holds(missed);
-  const std::string certificate = holds ? by.certified_by() : "doubted";
+  const std::string certificate = by.verdict(missed);
   if (!by.by_exact()) {
     outcome.outcome = certificate + "; no exact answer";
   } else if (by.position <= missed) {

@@ -33,7 +33,7 @@ const std::vector<std::pair<std::string, std::string>>& outcomes_of_random() {
   static const std::vector<std::pair<std::string, std::string>> words{
       {"certified: the only equilibrium", "certified, the only equilibrium"},
       {"certified: path back", "certified, path back"},
-      {"certified: signs of the branch", "certified, signs of the branch"},
+      {"signs alone", "signs alone"},
       {"right", "right by the exact reference"},
       {"tolerance missed", "tolerance missed"},
       {"wrong but flagged", "wrong but flagged"},
@@ -66,7 +66,7 @@ const std::vector<std::pair<std::string, std::string>>& verdicts() {
       {"doubted", "doubted"},
       {"certified: the only equilibrium", "certified, the only equilibrium"},
       {"certified: path back", "certified, path back"},
-      {"certified: signs of the branch", "certified, signs of the branch"}};
+      {"signs alone", "signs alone"}};
   return words;
 }
 
@@ -136,20 +136,22 @@ std::string picture(const Tally& random) {
 std::map<std::string, std::string> campaign_files(const CampaignData& data, const std::filesystem::path& page_md) {
   const Tally& random = data.random;
   const std::uint64_t scenes = random.scenes(), no_answer = starting_with(random, "no answer"),
-                      no_judge = starting_with(random, "no judge"), judged = scenes - no_answer - no_judge,
+                      no_judge = starting_with(random, "no judge"), by_signs = starting_with(random, "signs alone"),
+                      judged = scenes - no_answer - no_judge - by_signs,
                       silent = starting_with(random, "wrong and silent"),
                       certified = starting_with(random, "certified"),
                       missed = starting_with(random, "tolerance missed"),
                       flagged = starting_with(random, "wrong but flagged");
   const std::uint64_t not_right = judged_as(data.audit, "not right"),
                       audited = not_right + judged_as(data.audit, "right"),
-                      escaped = not_right - starting_with(data.audit, "doubted; not right"),
-                      by_signs = starting_with(data.audit, "certified: signs of the branch; not right");
+                      missed_by_signs = starting_with(data.audit, "signs alone; not right"),
+                      escaped = not_right - starting_with(data.audit, "doubted; not right") - missed_by_signs;
   Page page;
   const auto set = [&](const char* name, std::uint64_t n) { page.set(name, std::to_string(n)); };
   set("scenes", scenes), set("judged", judged), set("silent", silent), set("missed", missed), set("flagged", flagged);
   set("no_answer", no_answer), set("no_judge", no_judge), set("not_right", not_right);
-  set("audited", audited), set("by_signs", by_signs), set("by_path", escaped - by_signs);
+  set("audited", audited), set("missed_by_signs", missed_by_signs), set("escaped", escaped);
+  set("by_signs", by_signs);
   set("lost", starting_with(random, "no answer but exact"));
   set("failures_judged", starting_with(random, "no answer but exact") + starting_with(random, "no answer nor exact"));
   page.set("silent_bound", bound_text(silent, judged));
