@@ -211,13 +211,13 @@ BandSystem& Shooting::newton_equations(const NodeStates& y, double load_factor, 
 std::vector<Core> Shooting::tangent(const NodeStates& y, double load_factor) {
   constexpr double step = 1e-4;  // the residual is almost linear in the load factor
   const Core weight = weights(y);
-  const Eigen::VectorXd above = residual(y, load_factor + step, weight),
-                        below = residual(y, load_factor - step, weight);
+  const Eigen::VectorXd below = residual(y, load_factor - step, weight);  // above, a tendon may collapse
   newton_equations(y, load_factor, weight);
   std::vector<Core> result(y.size(), Core::Zero());
   if (!band_->factorise()) return result;
   double* x = band_->vector();
-  Eigen::Map<Eigen::VectorXd>(x, above.size()) = (below - above) / (2 * step);
+  Eigen::Map<Eigen::VectorXd> here(x, below.size());
+  here = (below - here) / step;
   if (!band_->solve()) return result;
   for (std::size_t k = 0; k < y.size(); ++k) {
     result[k] = Eigen::Map<const Core>(x + core_size * k).cwiseQuotient(weight);
