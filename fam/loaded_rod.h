@@ -5,6 +5,7 @@
 #include "fam/arc_law.h"
 #include "fam/dual.h"
 #include "fam/span_arcs.h"
+#include "fam/vector_unit.h"
 
 #include <algorithm>
 #include <span>
@@ -109,8 +110,8 @@ class LoadedRod {
   mutable bool tendon_collapsed_ = false;
 };
 
-// The step of a law with every call inlined: twice as fast, but for many derivatives minutes to compile. Not to be
-// inlined itself: into a caller that is not flattened it would lose its calls' inlining.
+// The step of a law with every call inlined: twice as fast. Not to be inlined itself: into a caller that is not
+// flattened it would lose its calls' inlining.
 template <class Section, class T, int D>
 FAM_FLATTEN [[gnu::noinline]] BasicMotion<T, D> flat_step(Law law, const Section& section,
                                                           const ArcForces<T, D>* distributed, BasicWrench<T, D>& wrench,
@@ -136,7 +137,7 @@ void LoadedRod<D>::march_with(ArcRange arcs, SectionState<D, T>& state, After&& 
       } else if constexpr (sizeof(T) <= sizeof(Dual<1>)) {
         motion = flat_step(law_, section, distributed, state.wrench, screw);
       } else {
-        motion = law_step(law_, section, distributed, state.wrench, screw);
+        call_on(widest_unit(), [&] { motion = law_step(law_, section, distributed, state.wrench, screw); });
       }
       for (int axis = 0; axis < D; ++axis) {
         state.rotation_SB.col(axis) = motion.rotate(Vector<T, D>(state.rotation_SB.col(axis)));

@@ -212,6 +212,7 @@ void BasicShape<D>::set(const SolvedRod<D>& rod) {
       total = wrench_towards(inside, 0, rod.poses[static_cast<std::size_t>(arc)]);
     }
   }
+  base_total_B_ = total;
 }
 
 template <int D>
@@ -219,7 +220,9 @@ typename BasicShape<D>::Section BasicShape<D>::section(ArcInterior<D>& arc, doub
   Section result;
   result.pose = arc.pose(fraction);
   const auto k = static_cast<std::size_t>(arc.arc());
-  result.total_B = fraction >= 1 ? distal_totals_B_[k] : wrench_towards(arc, fraction, result.pose);
+  if (fraction >= 1) result.total_B = distal_totals_B_[k];
+  else if (fraction <= 0 && k == 0) result.total_B = base_total_B_;
+  else result.total_B = wrench_towards(arc, fraction, result.pose);
   const Eigen::Matrix<double, D, D>& R = result.pose.rotation_BS;
   BasicWrench<double, D> total_S = result.total_B;
   total_S.force_N = R.transpose() * total_S.force_N;

@@ -84,6 +84,7 @@ class BasicShape {
   SolvedRod<D> rod_;
   std::vector<int> span_of_arc_;
   std::vector<BasicWrench<double, D>> distal_totals_B_;  // at the arcs' distal ends, loads there included
+  BasicWrench<double, D> base_total_B_;
 };
 
 }  // namespace fam
