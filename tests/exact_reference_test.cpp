@@ -184,9 +184,8 @@ TEST(ExactReference, PureCompressionStaysStraightAndSaysSo) {  // Euler load: 2.
   }
 }
 
-// A moment that winds the rod up by 100 rad, to a circle. Steps are predicted to second order: 167, to first order 333.
-// Load steps of a rod wound up by 100 rad, of 2.1 rad at most, and of a cantilever, on which to first order it
-// takes 17.
+// A moment that winds a rod up by 100 rad, to a circle, in steps of 2.1 rad at most: 68. A cantilever takes 14, predicted
+// to first order 17.
 TEST(ExactReference, StepsOfSecondOrder) {
   const auto steps = [](const scene::Equilibrium& result) {
     const auto found = std::ranges::find(result.model, "load_steps", [](const auto& entry) { return entry.first; });
