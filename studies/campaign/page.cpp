@@ -151,7 +151,9 @@ std::map<std::string, std::string> campaign_files(const CampaignData& data, cons
   set("scenes", scenes), set("judged", judged), set("silent", silent), set("missed", missed), set("flagged", flagged);
   set("no_answer", no_answer), set("no_judge", no_judge), set("not_right", not_right);
   set("audited", audited), set("missed_by_signs", missed_by_signs), set("escaped", escaped);
-  set("by_signs", by_signs);
+  const std::uint64_t signs_right = starting_with(data.audit, "signs alone; right", "FAM");
+  set("by_signs", by_signs), set("signs_right", signs_right);
+  set("signs_audited", signs_right + starting_with(data.audit, "signs alone; not right", "FAM"));
   set("lost", starting_with(random, "no answer but exact"));
   set("failures_judged", starting_with(random, "no answer but exact") + starting_with(random, "no answer nor exact"));
   page.set("silent_bound", bound_text(silent, judged));
