@@ -164,10 +164,11 @@ TEST(SurvivorsExact, PressedAcross) {
 // No energy, no verdict; with one, Prandtl's and Michell's critical load of a strip, 4.0126 sqrt(EI GJ)/L^2 (Timoshenko
 // and Gere), whose stability is a matter of the moments along it.
 TEST(SurvivorsFam, StabilityOfAStrip) {
-  scene::Stiffness wide = slender(1, 1);
+  scene::Stiffness wide = slender(1, 16);
   wide.bending_Nmm2[1] = 1e6;
   const auto pressed = [&](double load) { return uniform_rod(1, wide, {Force{1, Frame::fixed, {0, load, 0}}}); };
-  const Equilibrium below = by_fam(pressed(0.98 * 4.0126), 1e-4), above = by_fam(pressed(1.02 * 4.0126), 1e-4);
+  constexpr double critical = 4.0126 * 4;
+  const Equilibrium below = by_fam(pressed(0.98 * critical), 1e-4), above = by_fam(pressed(1.02 * critical), 1e-4);
   EXPECT_EQ(below.stable, std::optional(true));
   EXPECT_EQ(above.stable, std::optional(false));
   EXPECT_GT(fact<int>(above, "segments"), 1);
