@@ -1,24 +1,43 @@
 // The arc laws in sections with tendons, for all numbers that are marched.
 #include "fam/arc_law.h"
-#include "fam/tendon.h"
+#include "fam/one_tendon.h"
 
 namespace fam {
+namespace {
+
+// visit(section) with an arc's tendons.
+template <bool with_shear, class T, int D, class Visit>
+auto visit_section(const BasicArcConstants<D>& arc, Visit&& visit) {
+  if (arc.tendons.size() == 1) {
+    OneTendonSection<with_shear, T, D> section(arc);
+    return visit(section);
+  }
+  TendonSection<with_shear, T, D> section(arc);
+  return visit(section);
+}
+
+}  // namespace
 
 template <bool with_shear, class T, int D>
 BasicMotion<T, D> tendon_step(Law law, const BasicArcConstants<D>& arc, const ArcForces<T, D>* forces,
                               BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw, bool& collapsed) {
-  TendonSection<with_shear, T, D> section(arc);
-  const BasicMotion<T, D> motion = law_step(law, section, forces, wrench, screw);
-  collapsed = collapsed || section.collapsed();
-  return motion;
+  return visit_section<with_shear, T>(arc, [&](auto& section) {
+    const BasicMotion<T, D> motion = law_step(law, section, forces, wrench, screw);
+    collapsed = collapsed || section.collapsed();
+    return motion;
+  });
 }
 
 template <bool with_shear, std::size_t terms, int D>
 RodSeries<double, D, terms> series_of(const BasicArcConstants<D>& arc, const ArcForces<double, D>* forces,
                                       const BasicWrench<double, D>& wrench) {
   RodSeries<double, D, terms> series;
-  if (arc.is_elastic()) series = rod_series<terms>(ElasticSection<with_shear, double, D>(arc), forces, wrench);
-  else series = rod_series<terms>(TendonSection<with_shear, double, D>(arc), forces, wrench);
+  if (arc.is_elastic()) {
+    series = rod_series<terms>(ElasticSection<with_shear, double, D>(arc), forces, wrench);
+  } else {
+    series = visit_section<with_shear, double>(
+        arc, [&](auto& section) { return rod_series<terms>(section, forces, wrench); });
+  }
   if constexpr (!with_shear) {
     for (std::size_t k = 1; k < terms; ++k) series.translation_mm[k].setZero();
   }
@@ -28,7 +47,7 @@ RodSeries<double, D, terms> series_of(const BasicArcConstants<D>& arc, const Arc
 template <bool with_shear, int D>
 BasicScrew<double, D> strain_under(const BasicArcConstants<D>& arc, const BasicWrench<double, D>& wrench) {
   if (arc.is_elastic()) return ElasticSection<with_shear, double, D>(arc).strain(wrench);
-  return TendonSection<with_shear, double, D>(arc).strain(wrench);
+  return visit_section<with_shear, double>(arc, [&](auto& section) { return section.strain(wrench); });
 }
 
 #define FAM_TENDON_STEP(with_shear, T, D)                                                                            \

@@ -1,9 +1,13 @@
 // One arc: its Bezier form, and the published law against its definition.
 #include "fam/arc_law.h"
+#include "fam/dual.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numbers>
+#include <random>
+#include <vector>
 
 namespace {
 
@@ -111,6 +115,88 @@ TEST(LawList, NamesLeadBackToTheirLaws) {
   EXPECT_EQ(fam::law_named(fam::name(fam::Law::automatic)), fam::Law::automatic);
   EXPECT_NE(fam::chosen(fam::Law::automatic), fam::Law::automatic);
   EXPECT_EQ(fam::law_named("seventh_order"), std::nullopt);
+}
+
+// One tendon, or two of half its tension at the same place: the same arc, though its strain is found in other unknowns.
+// The largest of the two's differences, of the turn in rad and of the rest over the arc's length or the wrench.
+template <bool with_shear, class T, int D>
+double difference_to_halves(const BasicTendon<D>& tendon, const BasicArcConstants<D>& of_arc,
+                            const BasicWrench<T, D>& distal, const ArcForces<T, D>* forces) {
+  const std::array<BasicTendon<D>, 2> halves{
+      {{tendon.arm_mm, tendon.tension_N / 2}, {tendon.arm_mm, tendon.tension_N / 2}}};
+  const auto proximal = [&](std::span<const BasicTendon<D>> tendons) {
+    BasicArcConstants<D> arc = of_arc;
+    arc.tendons = tendons;
+    BasicWrench<T, D> wrench = distal;
+    BasicScrew<T, D> screw;
+    bool collapsed = false;
+    tendon_step<with_shear>(Law::sixth_order, arc, forces, wrench, screw, collapsed);
+    EXPECT_FALSE(collapsed);
+    return std::pair{wrench, screw};
+  };
+  const auto [one, one_screw] = proximal({&tendon, 1});
+  const auto [two, two_screw] = proximal(halves);
+  double largest = 0;
+  const auto compare = [&largest](const auto& a, const auto& b, double unit) {
+    for (Eigen::Index i = 0; i < a.size(); ++i) {
+      if constexpr (std::is_same_v<T, double>) {
+        largest = std::max(largest, std::abs(a[i] - b[i]) / unit);
+      } else {
+        largest = std::max(largest, std::abs(a[i].value - b[i].value) / unit);
+        largest = std::max(largest, (a[i].slope - b[i].slope).abs().maxCoeff() / unit);
+      }
+    }
+  };
+  compare(one_screw.rotation, two_screw.rotation, 1);
+  compare(one_screw.translation_mm, two_screw.translation_mm, of_arc.length_mm);
+  compare(one.force_N, two.force_N, 10);
+  compare(one.moment_Nmm, two.moment_Nmm, 100);
+  return largest;
+}
+
+template <int D>
+BasicArcConstants<D> soft_arc() {
+  BasicArcConstants<D> arc;
+  arc.length_mm = 20;
+  arc.angular_compliance = 20 * angular_part<D>(Eigen::Vector3d(1 / 150., 1 / 400., 1 / 300.));
+  arc.rest_rotation = 20 * angular_part<D>(Eigen::Vector3d(0.01, -0.02, 0.015));
+  arc.linear_compliance = 20 * linear_part<D>(Eigen::Vector3d(1 / 300., 1 / 90., 1 / 80.));
+  arc.rest_translation_mm = 20 * linear_part<D>(Eigen::Vector3d(1, 0, 0));
+  return arc;
+}
+
+// With 25 N some tendons are pressed together to a fifth of the arc.
+TEST(OneTendon, IsAsTwoOfHalfTheTension) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> one(-1, 1);
+  for (const double tension_N : {0.0, 3.0, 10.0, 25.0}) {
+    for (int i = 0; i < 50; ++i) {
+      const auto some = [&](double size) {
+        return Eigen::Vector3d(size * one(random), size * one(random), size * one(random));
+      };
+      const Eigen::Vector3d force_N = some(2), moment_Nmm = some(20), arm_mm(0, 2 * one(random), 2 * one(random));
+      const ArcForces<double, 3> forces{some(1), some(1)};
+      const BasicWrench<double, 3> wrench{force_N, moment_Nmm};
+      const BasicTendon<3> tendon{arm_mm, tension_N};
+      for (const ArcForces<double, 3>* along : {static_cast<const ArcForces<double, 3>*>(nullptr), &forces}) {
+        EXPECT_LT((difference_to_halves<true>(tendon, soft_arc<3>(), wrench, along)), 1e-12) << tension_N << ' ' << i;
+        EXPECT_LT((difference_to_halves<false>(tendon, soft_arc<3>(), wrench, along)), 1e-12) << tension_N << ' ' << i;
+      }
+      using Number = Dual<4>;
+      const auto unknown = [](double value, int direction) {
+        Number number(value);
+        number.slope[direction] = 1;
+        return number;
+      };
+      BasicWrench<Number, 2> planar;
+      planar.force_N << unknown(force_N[0], 0), unknown(force_N[1], 1);
+      planar.moment_Nmm << unknown(moment_Nmm[2], 2);
+      const BasicTendon<2> planar_tendon{arm_mm.head<2>(), tension_N};
+      const ArcForces<Number, 2>* none = nullptr;
+      EXPECT_LT((difference_to_halves<true>(planar_tendon, soft_arc<2>(), planar, none)), 1e-11)
+          << tension_N << ' ' << i;
+    }
+  }
 }
 
 }  // namespace
