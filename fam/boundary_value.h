@@ -47,6 +47,7 @@ class BasicBoundaryValue {
   }
   int segment_count() const { return static_cast<int>(shooting_.segments().size()); }
   int load_steps() const { return growth_.load_steps(); }
+  bool way_was_smooth() const { return growth_.was_smooth(); }
   double expected_turn_rad() const { return shooting_.expected_turn_rad(); }
   int newton_steps() const { return shooting_.newton_steps(); }  // of the last run, and of the one that it started from
   double load_factor() const { return shooting_.rod().load_factor(); }  // reached

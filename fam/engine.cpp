@@ -96,6 +96,9 @@ int Engine::load_steps() const {
 int Engine::newton_steps() const {
   return visit([](const auto& s) { return of_boundary_value(s, [](const auto& p) { return p.newton_steps(); }); });
 }
+bool Engine::way_was_smooth() const {
+  return visit([](const auto& s) { return of_boundary_value(s, [](const auto& p) { return p.way_was_smooth(); }); });
+}
 double Engine::expected_turn_rad() const {
   return visit([](const auto& s) { return of_boundary_value(s, [](const auto& p) { return p.expected_turn_rad(); }); });
 }

@@ -49,6 +49,7 @@ class Engine {
   double load_factor() const;  // that a boundary value problem has reached
   int load_steps() const;
   int newton_steps() const;
+  bool way_was_smooth() const;       // no critical point was near as the load grew
   double expected_turn_rad() const;  // of a segment's end, in the step that Newton left out; 0: a march
   std::string failure_message(scene::Status status) const;
 

@@ -3,14 +3,14 @@
 // Where the loads are too small for a second equilibrium (Shooting::one_equilibrium), or there is none because the
 // moments are known beforehand, the full load is solved for at once. Beyond, it grows from zero in steps; a step is
 // taken only if Newton converges and no segment end turns by more than largest_turn_rad in it nor lies farther than
-// largest_surprise_rad from where the last steps pointed. Beside a buckling or turning point the branches lie too close
-// to be told apart by their distance, but the sign of the equations' determinant differs from one to the next: a step
-// that changes it is shortened as well, or one that leads on to where it vanishes (scene/branch_watch.h). Where the
-// loads have an energy one that ends unstable is shortened as well, but passes below smallest_bifurcation_step if its
-// symmetry can hold the rod there: in the plane, whose determinant is that of motions in it alone, and on the axis (a
-// column loaded exactly on its axis stays straight), where none is watched. So the answer is the equilibrium that the
-// rod reaches when its loads grow together from zero; a snap-through ends in load_step_too_small (fam/limit.h tells
-// more).
+// largest_surprise_rad from where the last steps, or the tangent at the start, pointed. Beside a buckling or turning
+// point the branches lie too close to be told apart by their distance, but the sign of the equations' determinant
+// differs from one to the next: a step that changes it is shortened as well, or one that leads on to where it vanishes
+// (scene/branch_watch.h). Where the loads have an energy one that ends unstable is shortened as well, but passes below
+// smallest_bifurcation_step if its symmetry can hold the rod there: in the plane, whose determinant is that of motions
+// in it alone, and on the axis (a column loaded exactly on its axis stays straight), where none is watched. So the
+// answer is the equilibrium that the rod reaches when its loads grow together from zero; a snap-through ends in
+// load_step_too_small (fam/limit.h tells more).
 #pragma once
 
 #include "fam/shooting.h"
@@ -52,7 +52,12 @@ class LoadGrowth {
     return judge_(shooting.rod(), shooting.segments(), shooting.nodes());
   }
   int load_steps() const { return load_steps_; }
-  void take_over(const LoadGrowth& fewer_arcs) { load_steps_ = fewer_arcs.load_steps_; }
+  // Whether no critical point was near on the way.
+  bool was_smooth() const { return was_smooth_; }
+  void take_over(const LoadGrowth& fewer_arcs) {
+    load_steps_ = fewer_arcs.load_steps_;
+    was_smooth_ = fewer_arcs.was_smooth_;
+  }
 
  private:
   using Nodes = std::vector<SectionState<D>>;
@@ -62,8 +67,12 @@ class LoadGrowth {
   // rod is stable.
   scene::Status grow(Shooting<D>& shooting, double size, bool at_rest);
   void start_watch(const Shooting<D>& shooting, bool at_rest);
-  void predict(const Shooting<D>& shooting, double factor);
-  void extrapolate(const Nodes& now, const Nodes& earlier, double times);
+  // How many times the nodes change by what they did since the last loads but one and two, and by the start's tangent.
+  struct Shares {
+    double previous = 0, earlier = 0, tangent = 0;
+  };
+  Shares predicted_shares(double factor) const;
+  void predict(const Shooting<D>& shooting, const Shares& shares);
   // Before or after a step to where the determinant is this.
   bool nears_critical(const scene::Determinant& now) const {
     return near_critical_ || scene::has_fallen(start_determinant_, now);
@@ -74,12 +83,14 @@ class LoadGrowth {
   bool stays_on_branch(Shooting<D>& shooting, double step);
   bool gives_up(const Shooting<D>& shooting, double step);
 
-  Nodes start_, guess_;       // of a step
-  Nodes previous_, earlier_;  // at the last loads but one and two
+  Nodes start_, guess_;                // of a step
+  Nodes previous_, earlier_;           // at the last loads but one and two
+  std::vector<Fields<D, 1>> tangent_;  // of the nodes by the load factor, where the way starts
   double load_factor_ = 0, previous_factor_ = 0, earlier_factor_ = 0, first_step_ = 1;
   scene::BranchWatch branch_;
   scene::Determinant start_determinant_;  // where the way starts
   bool near_critical_ = false;            // now; where it is not, the way is taken for smooth
+  bool was_smooth_ = true;
   bool watches_determinant_ = false;
   bool watches_stability_ = false;  // the loads have an energy, and the rod was stable so far
   bool may_fall_ = false;           // where its symmetry can hold it

@@ -311,6 +311,31 @@ bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const OnT
 }
 
 template <int D>
+void Shooting<D>::set_load_tangent(double difference, std::vector<Fields<D, 1>>& tangent) {
+  const double factor = rod_.load_factor();
+  set_load(factor + difference);
+  const auto over = [difference](const auto& step, double unit) { return (unit / difference * step).eval(); };
+  tangent.back().force_N.setZero();
+  tangent.back().moment_Nmm.setZero();
+  if (segments_.size() == 1) {
+    const SegmentEquations missed = equations(0, false);
+    tangent[0].turn = over(-slope_.inverse() * missed.residual.template head<rotations>(), 1);
+  } else {
+    bool small;
+    evaluate_system(true, small);
+    system_.substitute();
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      const auto step = system_.right().tail(system_.size() - static_cast<Eigen::Index>(unknowns * k));
+      tangent[k].turn = over(step.template head<rotations>(), 1);
+      if (k + 1 == nodes_.size()) break;
+      tangent[k].force_N = over(step.template segment<D>(rotations), force_unit());
+      tangent[k].moment_Nmm = over(step.template segment<rotations>(rotations + D), moment_unit());
+    }
+  }
+  set_load(factor);
+}
+
+template <int D>
 bool Shooting<D>::newton(double tolerance, const OnTheWay* way) {
   return segments_.size() == 1 ? newton_one_segment(false, tolerance, way) : newton_segments(false, tolerance, way);
 }

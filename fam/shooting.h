@@ -9,7 +9,7 @@
 #pragma once
 
 #include "fam/band_solver.h"
-#include "fam/loaded_rod.h"
+#include "fam/varied_march.h"
 
 #include "scene/branch_watch.h"
 
@@ -123,6 +123,9 @@ class Shooting {
   const std::vector<ArcRange>& segments() const { return segments_; }
   const std::vector<Node>& nodes() const { return nodes_; }
   void set_nodes(const std::vector<Node>& nodes) { nodes_ = nodes; }
+  // How the nodes change with the load factor after newton(): one more step with the derivatives that it left, at loads
+  // by this much larger, over that.
+  void set_load_tangent(double difference, std::vector<Fields<D, 1>>& tangent);
 
   // The equations by themselves, for those who solve them with a parameter (fam/path_equations.h).
   static constexpr int rotations = rotations_of(D);

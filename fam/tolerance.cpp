@@ -58,13 +58,17 @@ double round_off_mm(const Problem& problem, const Run& run) {
   return 4 * std::numeric_limits<double>::epsilon() * problem.length_mm() * std::sqrt(run.arc_count());
 }
 
-// The answer with more arcs, from that with fewer if that may lead there. Where it is far off, or its arcs are too
-// long, the loads grow from nothing once more: it may lie on another branch.
+// Whether an answer leads to a finer one (leading_swing_rad); agrees: with a coarser one.
+bool leads(const Problem& problem, const Run& coarse, bool agrees) {
+  if (!coarse.converged() || coarse.engine.is_march()) return false;
+  return agrees || coarse.engine.way_was_smooth() || coarse.extent(problem).swing_rad <= leading_swing_rad;
+}
+
+// The answer with more arcs, from that with fewer if that leads there. Where it does not, or it is far off, the loads
+// grow from nothing once more: it may lie on another branch.
 void refine(const Problem& problem, std::span<const int> arcs, int factor, const Run& coarse, Run& fine,
-            bool may_lead) {
-  const bool leads = may_lead && !coarse.engine.is_march() && coarse.converged() &&
-                     coarse.extent(problem).swing_rad <= leading_swing_rad;
-  if (leads) {
+            bool coarse_leads) {
+  if (coarse_leads) {
     fine.solve(problem, arcs, factor, &coarse);
     if (fine.converged()) return;
   }
@@ -110,6 +114,8 @@ class Ladder {
   explicit Ladder(const Problem& problem) : problem_(problem), order_(facts_of(problem.choice().law).order) {}
 
   double error_mm() const { return error_mm_; }
+  // Of two runs that did not meet the tolerance: whether they lie on one branch.
+  bool agree() const { return last_mm_ <= confirming_share * problem_.length_mm(); }
 
   // Which of two runs, the finer with `ratio` times the arcs, meets the tolerance; null if none.
   const Run* sufficient(const Run& coarse, const Run& fine, double ratio) {
@@ -186,9 +192,9 @@ Found solve_to_tolerance(const Problem& problem, Run& one, Run& another) {
   Run *coarse = &one, *fine = &another;
   coarse->solve(problem, first);
   int times_apart = 0;
-  bool apart = false;
+  bool apart = false, agree = false;
   for (int multiple = 1, next = 2; static_cast<double>(next) * count <= max_arcs;) {
-    refine(problem, first, next, *coarse, *fine, !apart);
+    refine(problem, first, next, *coarse, *fine, !apart && leads(problem, *coarse, agree));
     const double ratio = static_cast<double>(next) / multiple;
     int after = 2 * next;
     if (!fine->converged() && is_the_end(*coarse, *fine)) return {fine, coarse, fine->status};
@@ -200,6 +206,7 @@ Found solve_to_tolerance(const Problem& problem, Run& one, Run& another) {
         return {fine, coarse, Status::converged, ladder.error_mm()};
       }
       times_apart += apart;
+      agree = ladder.agree();
       if (!apart) after = ladder.next(next);
     }
     multiple = next;
