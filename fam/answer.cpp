@@ -37,7 +37,7 @@ Stability stability_of(const Run& run) {
 template <int D>
 std::optional<bool> judged(const BasicBoundaryValue<D>& solver, const Problem& problem, const Run& run,
                            const Run* other, std::array<Run*, 2> spare, int arcs_at_most) {
-  if (solver.one_equilibrium()) return true;
+  if (solver.is_surely_stable()) return true;
   Stability coarse = solver.stability();
   if (other && other->converged()) {
     const auto [fewer, more] = std::minmax({run.arc_count(), other->arc_count()});

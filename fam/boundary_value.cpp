@@ -44,8 +44,9 @@ scene::Status BasicBoundaryValue<D>::run() {
 template <int D>
 scene::Status BasicBoundaryValue<D>::run_from(const BasicBoundaryValue& fewer_arcs) {
   why_ = nullptr;
-  growth_.take_over(fewer_arcs.growth_);
-  if (shooting_.solve_from(fewer_arcs.shooting_)) return place_arcs();
+  const bool solved = shooting_.solve_from(fewer_arcs.shooting_);
+  growth_.take_over(fewer_arcs.growth_, shooting_.determinant());
+  if (solved) return place_arcs();
   why_ = "Newton did not converge from the solution with fewer arcs";
   return scene::Status::not_converged;
 }

@@ -59,8 +59,9 @@ class BasicBoundaryValue {
     if (!stability_) stability_ = growth_.judge(shooting_);
     return *stability_;
   }
-  // Whether the loads are too small for a second equilibrium; then the one found is stable.
-  bool one_equilibrium() const { return shooting_.one_equilibrium(); }
+  // Whether the loads are too small for a second equilibrium, so that the one found is stable, or the rod was seen to
+  // stay stable as they grew.
+  bool is_surely_stable() const { return shooting_.one_equilibrium() || growth_.stayed_stable(); }
 
  private:
   // Sets why_. Their squares are summed.

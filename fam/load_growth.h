@@ -54,14 +54,22 @@ class LoadGrowth {
   int load_steps() const { return load_steps_; }
   // Whether no critical point was near on the way.
   bool was_smooth() const { return was_smooth_; }
-  void take_over(const LoadGrowth& fewer_arcs) {
+  // Whether the rod was stable at the start of such a way, on which the determinant of its motions in space was
+  // watched: then it is at the end.
+  bool stayed_stable() const { return D == 3 && was_smooth_ && watches_determinant_ && watches_stability_; }
+  // At the solution with more arcs, whose determinant is this.
+  void take_over(const LoadGrowth& fewer_arcs, const scene::Determinant& now) {
     load_steps_ = fewer_arcs.load_steps_;
-    was_smooth_ = fewer_arcs.was_smooth_;
+    was_smooth_ = fewer_arcs.was_smooth_ && !scene::has_fallen(fewer_arcs.start_determinant_, now);
+    start_determinant_ = fewer_arcs.start_determinant_;
+    watches_determinant_ = fewer_arcs.watches_determinant_;
+    watches_stability_ = fewer_arcs.watches_stability_;
   }
 
  private:
   using Nodes = std::vector<SectionState<D>>;
 
+  void start();
   scene::Status solve_known_moments(Shooting<D>& shooting);
   // size: of the change of the loads; 1 is too little to make a straight rod critical. at_rest: from no load, where a
   // rod is stable.

@@ -78,7 +78,8 @@ void refine(const Problem& problem, std::span<const int> arcs, int factor, const
 template <int D>
 bool are_apart(const BasicBoundaryValue<D>& fewer, const BasicBoundaryValue<D>& more) {
   const double ratio = std::min(2.0, static_cast<double>(more.arc_count()) / fewer.arc_count());
-  return !fewer.one_equilibrium() && !agree(fewer.stability(), more.stability(), apart_share * (ratio - 1));
+  return !(fewer.is_surely_stable() && more.is_surely_stable()) &&
+         !agree(fewer.stability(), more.stability(), apart_share * (ratio - 1));
 }
 template <int D>
 bool are_apart(const BasicMarch<D>&, const BasicMarch<D>&) {
