@@ -46,7 +46,7 @@ class OneTendonSection {
     return less_pull(loose, direction_of(t));
   }
 
-  [[gnu::noinline]] void begin_series(const BasicScrew<T, D>& first) {
+  void begin_series(const BasicScrew<T, D>& first) {
     t_[0] = tangent(first);
     using std::sqrt;
     length_[0] = sqrt(t_[0].dot(t_[0]));
@@ -55,7 +55,7 @@ class OneTendonSection {
     inverse_ = derivative<T>(direction_[0], inverse_length_).inverse();
   }
 
-  [[gnu::noinline]] void next(std::size_t k, const Angular<T, D>& moment_Nmm, const Vector<T, D>& force_N,
+  void next(std::size_t k, const Angular<T, D>& moment_Nmm, const Vector<T, D>& force_N,
                               Angular<T, D>& rotation, Vector<T, D>& translation_mm) {
     // What coefficient k of |t| and d has without that of t.
     T length(0);

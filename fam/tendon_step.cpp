@@ -5,6 +5,19 @@
 namespace fam {
 namespace {
 
+// As flat_step; sections with several tendons would take the compiler minutes.
+template <bool with_shear, class T, int D>
+FAM_FLATTEN [[gnu::noinline]] BasicMotion<T, D> step(Law law, OneTendonSection<with_shear, T, D>& section,
+                                                     const ArcForces<T, D>* forces, BasicWrench<T, D>& wrench,
+                                                     BasicScrew<T, D>& screw) {
+  return law_step(law, section, forces, wrench, screw);
+}
+template <bool with_shear, class T, int D>
+BasicMotion<T, D> step(Law law, TendonSection<with_shear, T, D>& section, const ArcForces<T, D>* forces,
+                       BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw) {
+  return law_step(law, section, forces, wrench, screw);
+}
+
 // visit(section) with an arc's tendons.
 template <bool with_shear, class T, int D, class Visit>
 auto visit_section(const BasicArcConstants<D>& arc, Visit&& visit) {
@@ -22,7 +35,7 @@ template <bool with_shear, class T, int D>
 BasicMotion<T, D> tendon_step(Law law, const BasicArcConstants<D>& arc, const ArcForces<T, D>* forces,
                               BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw, bool& collapsed) {
   return visit_section<with_shear, T>(arc, [&](auto& section) {
-    const BasicMotion<T, D> motion = law_step(law, section, forces, wrench, screw);
+    const BasicMotion<T, D> motion = step(law, section, forces, wrench, screw);
     collapsed = collapsed || section.collapsed();
     return motion;
   });
