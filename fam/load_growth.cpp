@@ -74,7 +74,7 @@ void LoadGrowth<D>::predict(const Shooting<D>& shooting, const Shares& shares) {
   const Nodes& now = shooting.nodes();
   guess_ = now;
   for (std::size_t k = 0; k < now.size(); ++k) {
-    auto& [rotation_SB, wrench] = guess_[k];
+    BasicWrench<double, D>& wrench = guess_[k].wrench;  // no structured binding: Clang 14's closures do not take one
     Angular<double, D> turn = shares.tangent * tangent_[k].turn;
     wrench = wrench + shares.tangent * BasicWrench<double, D>{tangent_[k].force_N, tangent_[k].moment_Nmm};
     const auto add_change = [&](const SectionState<D>& earlier, double times) {
@@ -84,7 +84,7 @@ void LoadGrowth<D>::predict(const Shooting<D>& shooting, const Shares& shares) {
     };
     add_change(previous_[k], shares.previous);
     add_change(earlier_[k], shares.earlier);
-    rotation_SB = turned(rotation_SB, turn);
+    guess_[k].rotation_SB = turned(now[k].rotation_SB, turn);
   }
 }
 
