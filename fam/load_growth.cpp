@@ -188,7 +188,7 @@ void LoadGrowth<D>::start_watch(const Shooting<D>& shooting, bool at_rest) {
 }
 
 template <int D>
-void LoadGrowth<D>::start() {
+void LoadGrowth<D>::forget_way() {
   end_ = {};
   load_steps_ = 1;
   was_smooth_ = true;
@@ -197,7 +197,7 @@ void LoadGrowth<D>::start() {
 
 template <int D>
 scene::Status LoadGrowth<D>::run(Shooting<D>& shooting) {
-  start();
+  forget_way();
   if (shooting.moments_are_known()) return solve_known_moments(shooting);
   if (shooting.one_equilibrium() && shooting.solve_at_once()) return scene::Status::converged;
   load_steps_ = 0;
@@ -219,7 +219,7 @@ scene::Status LoadGrowth<D>::solve_known_moments(Shooting<D>& shooting) {
 template <int D>
 scene::Status LoadGrowth<D>::run_on(Shooting<D>& shooting, const Shooting<D>* last,
                                     const Angular<double, D>& tip_turn_B) {
-  start();
+  forget_way();
   if (shooting.moments_are_known()) return solve_known_moments(shooting);
   start_ = shooting.nodes();
   if (shooting.one_equilibrium() && shooting.solve_near(last, tip_turn_B)) return scene::Status::converged;

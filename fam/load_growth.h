@@ -3,7 +3,8 @@
 // Where the loads are too small for a second equilibrium (Shooting::one_equilibrium), or there is none because the
 // moments are known beforehand, the full load is solved for at once. Beyond, it grows from zero in steps; a step is
 // taken only if Newton converges and no segment end turns by more than largest_turn_rad in it nor lies farther than
-// largest_surprise_rad from where the last steps, or the tangent at the start, pointed. Beside a buckling or turning
+// largest_surprise_rad from where the last steps, or the tangent at the start, pointed (both limits are wider where no
+// critical point is near). Beside a buckling or turning
 // point the branches lie too close to be told apart by their distance, but the sign of the equations' determinant
 // differs from one to the next: a step that changes it is shortened as well, or one that leads on to where it vanishes
 // (scene/branch_watch.h). Where the loads have an energy one that ends unstable is shortened as well, but passes below
@@ -69,7 +70,7 @@ class LoadGrowth {
  private:
   using Nodes = std::vector<SectionState<D>>;
 
-  void start();
+  void forget_way();
   scene::Status solve_known_moments(Shooting<D>& shooting);
   // size: of the change of the loads; 1 is too little to make a straight rod critical. at_rest: from no load, where a
   // rod is stable.

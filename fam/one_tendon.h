@@ -12,7 +12,7 @@
 
 namespace fam {
 
-// The arc laws' `Section`, as TendonSection, which finds what Newton's method alone does not.
+// The arc laws' `Section`, as TendonSection, which is asked where Newton's method alone does not find the strain.
 template <bool with_shear, class T, int D>
 class OneTendonSection {
  public:
@@ -55,8 +55,8 @@ class OneTendonSection {
     inverse_ = derivative<T>(direction_[0], inverse_length_).inverse();
   }
 
-  void next(std::size_t k, const Angular<T, D>& moment_Nmm, const Vector<T, D>& force_N,
-                              Angular<T, D>& rotation, Vector<T, D>& translation_mm) {
+  void next(std::size_t k, const Angular<T, D>& moment_Nmm, const Vector<T, D>& force_N, Angular<T, D>& rotation,
+            Vector<T, D>& translation_mm) {
     // What coefficient k of |t| and d has without that of t.
     T length(0);
     Vector<T, D> known = Vector<T, D>::Zero();
@@ -148,6 +148,7 @@ class OneTendonSection {
     }
     return false;
   }
+
   const BasicArcConstants<D>& arc_;
   Square<double> give_;  // G
   Square<T> inverse_;    // of the derivative where the series begins
