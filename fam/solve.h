@@ -26,7 +26,7 @@ namespace fam {
 //   arcs             multiples of set_first_arcs(), the smallest found whose estimated error meets the tolerance
 //   solver           the march where all loads follow, else the boundary value problem
 //
-// The error estimate: fam/tolerance.h.
+// The error estimate: fam/tolerance.h. A thread keeps the memory of its last solve of a small rod.
 scene::Equilibrium solve(const scene::Scene& scene, const Options& options = {});
 
 }  // namespace fam

@@ -1,6 +1,7 @@
 // The kept solver: set in place, solved again from the last solution, without allocating.
 #include "allocation_counter.h"
 #include "exact_reference/solve.h"
+#include "fam/solve.h"
 #include "scene/span_facts.h"
 #include "support.h"
 #include "support_fam.h"
@@ -19,6 +20,15 @@ using scene::Status;
 using support::kept;
 using support::slender;
 using support::uniform_rod;
+
+// Allocations of one solve for the tip alone; its answer.
+std::size_t allocations_of(const scene::Scene& scene, scene::Equilibrium& result) {
+  fam::Options options;
+  options.whole_rod = false;
+  const std::size_t before = allocation_count();
+  result = fam::solve(scene, options);
+  return allocation_count() - before;
+}
 
 // Every kind of load, two sections, stiff and soft.
 scene::Scene robot() {
@@ -373,6 +383,23 @@ TEST(Solver, DerivativesOfWarmSolutions) {
     EXPECT_LT(((4 * some_mm - 3 * none_mm - more_mm) / (2 * step) - by_tension.head<3>()).norm(),
               1e-5 * by_tension.norm())
         << round;
+  }
+}
+
+// fam::solve() itself: a thread keeps what a small rod took and gives back what a large one did.
+TEST(Solve, TakesMemoryOnce) {
+  const scene::Scene easy = uniform_rod(100, slender(750, 500), {scene::Force{100, Frame::fixed, {0, 0.05, 0.02}}});
+  fam::Options many;
+  many.arcs = 200;
+  scene::Equilibrium first, again, after_many;
+  ASSERT_EQ(fam::solve(easy, many).status, Status::converged);
+  const std::size_t anew = allocations_of(easy, first);
+  EXPECT_LT(4 * allocations_of(easy, again), anew);  // those of the answer's lists
+  ASSERT_EQ(fam::solve(easy, many).status, Status::converged);
+  EXPECT_EQ(allocations_of(easy, after_many), anew);
+  for (const scene::Equilibrium* result : {&again, &after_many}) {
+    ASSERT_EQ(result->status, Status::converged);
+    EXPECT_EQ(result->stations.back().X_BS.position_B_mm, first.stations.back().X_BS.position_B_mm);
   }
 }
 
