@@ -10,9 +10,9 @@
 namespace fam {
 namespace {
 
-// A thread keeps the memory of a solve that took no more arcs than this. Taking it and giving it back were a sixth to a
-// third of the instructions of an easy rod. Chosen, not measured.
-constexpr int most_arcs_kept = 64;
+// A thread keeps the memory of a solve with no more arcs, and of a scene with no more spans and loads, than this.
+// Taking it and giving it back were a sixth to a third of the instructions of an easy rod. Chosen, not measured.
+constexpr std::size_t most_kept = 64;
 
 using scene::Equilibrium;
 using scene::Span;
@@ -90,7 +90,9 @@ struct Workspace {
   Run one, another, spare;
 
   bool is_small() const {
-    return std::max({one.arc_count(), another.arc_count(), spare.arc_count()}) <= most_arcs_kept;
+    const int arcs = std::max({one.arc_count(), another.arc_count(), spare.arc_count()});
+    return std::max({static_cast<std::size_t>(arcs), problem.scene_spans().size(), problem.scene().loads.size()}) <=
+           most_kept;
   }
 };
 

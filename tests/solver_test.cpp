@@ -397,6 +397,10 @@ TEST(Solve, TakesMemoryOnce) {
   EXPECT_LT(4 * allocations_of(easy, again), anew);  // those of the answer's lists
   ASSERT_EQ(fam::solve(easy, many).status, Status::converged);
   EXPECT_EQ(allocations_of(easy, after_many), anew);
+  scene::Scene loaded = easy;
+  loaded.loads.resize(100, scene::Force{100, Frame::fixed, {0, 1e-4, 0}});
+  ASSERT_EQ(fam::solve(loaded).status, Status::converged);
+  EXPECT_EQ(allocations_of(easy, after_many), anew);
   for (const scene::Equilibrium* result : {&again, &after_many}) {
     ASSERT_EQ(result->status, Status::converged);
     EXPECT_EQ(result->stations.back().X_BS.position_B_mm, first.stations.back().X_BS.position_B_mm);
