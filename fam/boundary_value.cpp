@@ -9,20 +9,14 @@ void BasicBoundaryValue<D>::set(const LoadWay& way, std::span<const int> arcs_pe
                                 double newton_tolerance) {
   shooting_.set(way, arcs_per_span, law, model, newton_tolerance);
   growth_.set(shooting_);
-  arcs_.resize(static_cast<std::size_t>(shooting_.rod().arc_count()));
-  motions_.resize(arcs_.size());
-  poses_.resize(arcs_.size() + 1);
-  distal_wrenches_S_.resize(arcs_.size());
+  poses_.resize(static_cast<std::size_t>(arc_count()) + 1);
 }
 
 template <int D>
 void BasicBoundaryValue<D>::reserve(const Room& room) {
   shooting_.reserve(room);
   growth_.reserve(room);
-  arcs_.reserve(room.arcs);
-  motions_.reserve(room.arcs);
   poses_.reserve(room.arcs + 1);
-  distal_wrenches_S_.reserve(room.arcs);
 }
 
 template <int D>
@@ -55,25 +49,11 @@ scene::Status BasicBoundaryValue<D>::run_from(const BasicBoundaryValue& fewer_ar
 template <int D>
 scene::Status BasicBoundaryValue<D>::place_arcs() {
   stability_.reset();
-  struct {
-    BasicBoundaryValue& self;
-    void meet(int arc, const SectionState<D>& state) const {
-      self.distal_wrenches_S_[static_cast<std::size_t>(arc)] = state.wrench;
-    }
-    void operator()(int arc, const BasicScrew<double, D>& screw, const BasicMotion<double, D>& motion,
-                    const SectionState<D>&) const {
-      self.arcs_[static_cast<std::size_t>(arc)].screw = screw;
-      self.motions_[static_cast<std::size_t>(arc)] = motion;
-    }
-  } keep{*this};
-  SectionState<D> state;
-  for (std::size_t k = shooting_.segments().size(); k-- > 0;) {
-    state = shooting_.nodes()[k];
-    shooting_.rod().march(shooting_.segments()[k], state, keep);
-  }
+  shooting_.march_all();
+  const MarchedArcs<D>& marched = shooting_.marched();
   poses_.front() = {};
-  for (std::size_t k = 0; k < arcs_.size(); ++k) poses_[k + 1] = poses_[k].then(motions_[k]);
-  if (poses_.back().position_B_mm.allFinite() && state.wrench.moment_Nmm.allFinite()) return scene::Status::converged;
+  for (std::size_t k = 0; k < marched.motions.size(); ++k) poses_[k + 1] = poses_[k].then(marched.motions[k]);
+  if (poses_.back().position_B_mm.allFinite() && marched.clamp_moment_Nmm.allFinite()) return scene::Status::converged;
   why_ = "a pose or wrench is not finite";
   return scene::Status::not_finite;
 }

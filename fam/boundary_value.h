@@ -37,13 +37,14 @@ class BasicBoundaryValue {
   // was first found with.
   scene::Status run_from(const BasicBoundaryValue& fewer_arcs);
 
-  int arc_count() const { return static_cast<int>(arcs_.size()); }
-  const std::vector<BasicArc<D>>& arcs() const { return arcs_; }
+  int arc_count() const { return shooting_.rod().arc_count(); }
+  const std::vector<BasicArc<D>>& arcs() const { return shooting_.marched().arcs; }
   const std::vector<BasicPose<D>>& poses() const { return poses_; }
   // What dense output needs (shape.h), after a converged run.
   SolvedRod<D> solved() const {
     const LoadedRod<D>& rod = shooting_.rod();
-    return {rod.span_arcs(), arcs_, poses_, distal_wrenches_S_, rod.law(), rod.model()};
+    const MarchedArcs<D>& marched = shooting_.marched();
+    return {rod.span_arcs(), marched.arcs, poses_, marched.distal_wrenches_S, rod.law(), rod.model()};
   }
   int segment_count() const { return static_cast<int>(shooting_.segments().size()); }
   int load_steps() const { return growth_.load_steps(); }
@@ -70,10 +71,7 @@ class BasicBoundaryValue {
 
   Shooting<D> shooting_;
   LoadGrowth<D> growth_;
-  std::vector<BasicArc<D>> arcs_;
-  std::vector<BasicMotion<double, D>> motions_;
   std::vector<BasicPose<D>> poses_;
-  std::vector<BasicWrench<double, D>> distal_wrenches_S_;
   mutable std::optional<Stability> stability_;  // of the last run that converged, once asked for
   const char* why_ = nullptr;                   // not converged, where it is not the growth of the load that failed
 };

@@ -65,10 +65,10 @@ void Engine::set(const Problem& problem, std::span<const int> arcs_per_span) {
     else march_.set(way.to, arcs_per_span, choice.law, model, order);
     return;
   }
-  // Newton ends a thousandth of the tolerance away, or at round-off where the arcs are given and no tolerance is.
+  // Newton ends a hundredth of the tolerance away, or at round-off where the arcs are given and no tolerance is.
   const bool has_tolerance = problem.options().arcs == 0 || problem.options().tolerance_mm > 0;
   const double tolerance =
-      has_tolerance ? std::clamp(1e-3 * problem.tolerance_mm() / problem.length_mm(), tightest_newton_tolerance, 1e-6)
+      has_tolerance ? std::clamp(1e-2 * problem.tolerance_mm() / problem.length_mm(), tightest_newton_tolerance, 1e-5)
                     : tightest_newton_tolerance;
   if (is_planar_) planar_boundary_value_.set(way, arcs_per_span, choice.law, model, tolerance);
   else boundary_value_.set(way, arcs_per_span, choice.law, model, tolerance);

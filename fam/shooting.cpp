@@ -25,6 +25,20 @@ Eigen::Matrix<double, 1, 1> sine_slope(const Eigen::Matrix2d& M) {
 }  // namespace
 
 template <int D>
+void MarchedArcs<D>::reserve(std::size_t count) {
+  arcs.reserve(count);
+  motions.reserve(count);
+  distal_wrenches_S.reserve(count);
+}
+
+template <int D>
+void MarchedArcs<D>::resize(std::size_t count) {
+  arcs.resize(count);
+  motions.resize(count);
+  distal_wrenches_S.resize(count);
+}
+
+template <int D>
 void Shooting<D>::set(const LoadWay& way, std::span<const int> arcs_per_span, Law law, RodModel model,
                       double newton_tolerance) {
   rod_.set(way, arcs_per_span, law, model);
@@ -34,6 +48,7 @@ void Shooting<D>::set(const LoadWay& way, std::span<const int> arcs_per_span, La
   for (const scene::Span& span : way.to)
     least_stiffness_Nmm2_ = std::min(least_stiffness_Nmm2_, least_stiffness_Nmm2(span));
   cut_into_segments();
+  marched_.resize(static_cast<std::size_t>(rod_.arc_count()));
   moments_are_known_ = scene::moments_are_known(way.to);
   if (has_few_arcs()) reserve_few_arcs();
 }
@@ -43,6 +58,7 @@ void Shooting<D>::reserve(const Room& room) {
   rod_.reserve(room);
   segments_.reserve(room.arcs);
   nodes_.reserve(room.arcs);
+  marched_.reserve(room.arcs);
   softness_.reserve(room.arcs);
   system_.reserve(unknowns * room.arcs);
   few_counts_.reserve(room.spans);
@@ -174,11 +190,16 @@ void Shooting<D>::evaluate_segment(std::size_t k, SegmentEquations& equations) c
 }
 
 template <int D>
-double Shooting<D>::apply(const Eigen::Ref<const Eigen::VectorXd>& step) {
-  double largest_turn = 0;
+double Shooting<D>::largest_turn_rad(const Eigen::Ref<const Eigen::VectorXd>& step) const {
+  double largest = 0;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
-    largest_turn = std::max(largest_turn, step.segment<rotations>(static_cast<Eigen::Index>(unknowns * k)).norm());
+    largest = std::max(largest, step.segment<rotations>(static_cast<Eigen::Index>(unknowns * k)).norm());
   }
+  return largest;
+}
+
+template <int D>
+void Shooting<D>::apply(const Eigen::Ref<const Eigen::VectorXd>& step, double largest_turn) {
   const double shorten = largest_turn > largest_newton_turn_rad ? largest_newton_turn_rad / largest_turn : 1;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(unknowns * k);
@@ -187,24 +208,40 @@ double Shooting<D>::apply(const Eigen::Ref<const Eigen::VectorXd>& step) {
     nodes_[k].wrench.force_N += shorten * force_unit() * step.segment<D>(at + rotations);
     nodes_[k].wrench.moment_Nmm += shorten * moment_unit() * step.segment<rotations>(at + rotations + D);
   }
-  return largest_turn;
+}
+
+template <int D>
+bool Shooting<D>::ends_measured(double size, double turn_rad, double tolerance) {
+  if (!(size <= tolerance)) return false;
+  expected_turn_rad_ = turn_rad;
+  return marched_is_of_nodes_ = true;
+}
+
+template <int D>
+void Shooting<D>::march_all() {
+  if (marched_is_of_nodes_) return;
+  for (std::size_t k = segments_.size(); k-- > 0;) {
+    Node state = nodes_[k];
+    march_remembered(k, state);
+  }
+  marched_is_of_nodes_ = true;
 }
 
 // One segment: the tip's rotation, on the stack. Derivatives are fresh while the steps are long, and after that mended
-// by Broyden's secant update. slope_ holds them between calls, `fresh_slope` says whether it does at the start.
+// by Broyden's secant update. slope_ holds them between calls, `keep_slope` says whether it does at the start.
 template <int D>
-bool Shooting<D>::newton_one_segment(bool fresh_slope, double tolerance, const OnTheWay* way) {
+bool Shooting<D>::newton_one_segment(bool keep_slope, double tolerance, const OnTheWay* way) {
   SegmentEquations equations;
   Angular<double, D> step = Angular<double, D>::Zero();
   Angular<double, D> last_residual = step;
   double last = std::numeric_limits<double>::infinity();
-  double last_log = fresh_slope ? determinant().log_size : std::numeric_limits<double>::quiet_NaN();
+  double last_log = keep_slope ? determinant().log_size : std::numeric_limits<double>::quiet_NaN();
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
     ++newton_steps_;
     Angular<double, D> residual;
-    if (fresh_slope) {
+    if (keep_slope) {
       Node state = nodes_[0];
-      rod_.march({0, rod_.arc_count()}, state);
+      march_remembered(0, state);
       residual = sine_vector<double>(state.rotation_SB);
       equations.mismatch_is_small = is_small<D>(state.rotation_SB);
       if (std::isfinite(last)) slope_ += (residual - last_residual - slope_ * step) * step.transpose() / (last * last);
@@ -218,17 +255,18 @@ bool Shooting<D>::newton_one_segment(bool fresh_slope, double tolerance, const O
     const double size = step.norm();
     if (!std::isfinite(size) || (way && size > way->hopeless_turn_rad)) return false;
     if (size > largest_newton_turn_rad) step *= largest_newton_turn_rad / size;
-    nodes_[0].rotation_SB = turned(nodes_[0].rotation_SB, step);
-    // The next step would be smaller by what this one was, or squared after fresh derivatives.
-    const double shrinkage = std::isfinite(last) ? std::min(size / last, 0.1) : 0.1;
-    const double next = fresh_slope ? size * shrinkage : newton_curvature * size * size;
-    expected_turn_rad_ = next;
     const scene::Determinant now = determinant();
     const bool tells = !(std::abs(now.log_size - last_log) > most_log_change);
     last_log = now.log_size;
+    if (keep_slope && tells && ends_measured(size, size, tolerance)) return equations.mismatch_is_small;
+    nodes_[0].rotation_SB = turned(nodes_[0].rotation_SB, step);
+    // The next step would be smaller by what this one was, or squared after fresh derivatives.
+    const double shrinkage = std::isfinite(last) ? std::min(size / last, 0.1) : 0.1;
+    const double next = keep_slope ? size * shrinkage : newton_curvature * size * size;
+    expected_turn_rad_ = next;
     if (tells && next <= tolerance) return equations.mismatch_is_small;
-    const bool may_keep = fresh_slope || !way || !(way->near_critical || scene::has_fallen(way->start, now));
-    fresh_slope = tells && may_keep && slopes_last(fresh_slope, size, last);
+    const bool may_keep = keep_slope || !way || !(way->near_critical || scene::has_fallen(way->start, now));
+    keep_slope = tells && may_keep && slopes_last(keep_slope, size, last);
     last = size;
   }
   return false;
@@ -260,7 +298,7 @@ bool Shooting<D>::evaluate_system(bool keep_factors, bool& mismatches_are_small)
   for (std::size_t k = 0; k < segments_.size(); ++k) {
     if (keep_factors) {
       Node state = nodes_[k];
-      rod_.march(segments_[k], state);
+      march_remembered(k, state);
       set_residual(k, state, equations);
     } else {
       if (k + 1 == segments_.size()) evaluate_segment<rotations>(k, equations);
@@ -291,8 +329,12 @@ bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const OnT
     if (!evaluate_system(keep_factors, small)) return false;
     system_.substitute();
     if (!system_.right().allFinite()) return false;
-    const double turn_rad = apply(system_.right()), size = system_.right().cwiseAbs().maxCoeff();
+    const double turn_rad = largest_turn_rad(system_.right()), size = system_.right().cwiseAbs().maxCoeff();
     if (way && turn_rad > way->hopeless_turn_rad) return false;
+    const bool tells = !(std::abs(system_.log_determinant() - last_log) > most_log_change);
+    last_log = system_.log_determinant();
+    if (keep_factors && tells && ends_measured(size, turn_rad, tolerance)) return small;
+    apply(system_.right(), turn_rad);
     const bool stalls = !keep_factors && size > 0.5 * last;
     const double shrinkage = std::isfinite(last) ? size / last : 0.1;
     const double expected_share = keep_factors ? shrinkage : newton_curvature * size;
@@ -300,8 +342,6 @@ bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const OnT
     if (stalls && turn_rad <= tolerance) return small;
     if (way && stalls && !kept_last && ++stalled == most_stalled_steps) return false;
     kept_last = keep_factors;
-    const bool tells = !(std::abs(system_.log_determinant() - last_log) > most_log_change);
-    last_log = system_.log_determinant();
     if (tells && size * expected_share <= tolerance) return small;
     const bool may_keep = keep_factors || (way && !way->near_critical && !scene::has_fallen(way->start, determinant()));
     keep_factors = tells && may_keep && slopes_last(keep_factors, size, last);
@@ -430,6 +470,8 @@ typename Shooting<D>::SegmentEquations Shooting<D>::equations(std::size_t k, boo
   return result;
 }
 
+template struct MarchedArcs<2>;
+template struct MarchedArcs<3>;
 template class Shooting<2>;
 template class Shooting<3>;
 

@@ -56,6 +56,25 @@ struct LoadBounds {
   double strain = 0;    // stretch and shear
 };
 
+// What the last march over all arcs met, as dense output needs it (shape.h).
+template <int D>
+struct MarchedArcs {
+  std::vector<BasicArc<D>> arcs;
+  std::vector<BasicMotion<double, D>> motions;
+  std::vector<BasicWrench<double, D>> distal_wrenches_S;
+  Angular<double, D> clamp_moment_Nmm;
+
+  void reserve(std::size_t count);
+  void resize(std::size_t count);
+  void meet(int arc, const SectionState<D>& state) { distal_wrenches_S[static_cast<std::size_t>(arc)] = state.wrench; }
+  void operator()(int arc, const BasicScrew<double, D>& screw, const BasicMotion<double, D>& motion,
+                  const SectionState<D>& state) {
+    arcs[static_cast<std::size_t>(arc)].screw = screw;
+    motions[static_cast<std::size_t>(arc)] = motion;
+    if (arc == 0) clamp_moment_Nmm = state.wrench.moment_Nmm;
+  }
+};
+
 // What Newton knows of a rod whose load grows.
 struct OnTheWay {
   // Where the way began. Where neither the last solution's nor the present determinant has fallen from it, the
@@ -82,11 +101,16 @@ class Shooting {
   // All moments are known in the base's axes beforehand (scene::moments_are_known).
   bool moments_are_known() const { return moments_are_known_; }
   double newton_tolerance() const { return newton_tolerance_; }
-  int newton_steps() const { return newton_steps_; }               // since forget_work()
-  double expected_turn_rad() const { return expected_turn_rad_; }  // of a node in the step that Newton left out last
+  int newton_steps() const { return newton_steps_; }  // since forget_work()
+  // Of a node in the step that Newton left out last: as a march measured it, or as the steps before let expect.
+  double expected_turn_rad() const { return expected_turn_rad_; }
   void forget_work();
 
-  void set_load(double factor) { rod_.set_load(factor); }
+  // Before nodes are changed, too.
+  void set_load(double factor) {
+    rod_.set_load(factor);
+    marched_is_of_nodes_ = false;
+  }
   // No load: the rest shape.
   void start_unloaded();
   // The full load, and the shape that a march from the clamp leads to where the moments are known: the same arcs with
@@ -123,6 +147,10 @@ class Shooting {
   const std::vector<ArcRange>& segments() const { return segments_; }
   const std::vector<Node>& nodes() const { return nodes_; }
   void set_nodes(const std::vector<Node>& nodes) { nodes_ = nodes; }
+  // What the last march met; that over the nodes as they are after march_all(), which has nothing to do where Newton
+  // ended with it.
+  const MarchedArcs<D>& marched() const { return marched_; }
+  void march_all();
   // How the nodes change with the load factor after newton(): one more step with the derivatives that it left, at loads
   // by this much larger, over that.
   void set_load_tangent(double difference, std::vector<Fields<D, 1>>& tangent);
@@ -164,15 +192,21 @@ class Shooting {
   // The residuals of all segments and, unless the factors are to be kept, their derivatives, factorised. False: not
   // finite, or singular.
   bool evaluate_system(bool keep_factors, bool& mismatches_are_small);
-  // fresh_slope, keep_factors: the derivatives at hand serve for the first step.
-  bool newton_one_segment(bool fresh_slope, double tolerance, const OnTheWay* way = nullptr);
+  // keep_slope, keep_factors: the derivatives at hand serve for the first step.
+  bool newton_one_segment(bool keep_slope, double tolerance, const OnTheWay* way = nullptr);
   bool newton_segments(bool keep_factors, double tolerance, const OnTheWay* way = nullptr);
+  // Over segment k from its node, which the state is; fills marched_.
+  void march_remembered(std::size_t k, Node& state) { rod_.march(segments_[k], state, marched_); }
+  // Whether the step that a march has shown to be left is small enough to be left out: then the solution is what the
+  // march met.
+  bool ends_measured(double size, double turn_rad, double tolerance);
   // Whether derivatives that led to a step of this size do for the next one too.
   static bool slopes_last(bool were_kept, double size, double last_size) {
     return size < 0.4 && (!were_kept || size < 0.5 * last_size);
   }
-  // Moves the nodes by a Newton step; the largest turn of one in it.
-  double apply(const Eigen::Ref<const Eigen::VectorXd>& step);
+  // The largest turn of a node in a Newton step of several segments; moves the nodes by it.
+  double largest_turn_rad(const Eigen::Ref<const Eigen::VectorXd>& step) const;
+  void apply(const Eigen::Ref<const Eigen::VectorXd>& step, double largest_turn_rad);
 
   LoadedRod<D> rod_;
   double newton_tolerance_ = 0, expected_turn_rad_ = 0;
@@ -181,6 +215,8 @@ class Shooting {
   LoadBounds bounds_;
   std::vector<ArcRange> segments_;
   std::vector<Node> nodes_;
+  MarchedArcs<D> marched_;
+  bool marched_is_of_nodes_ = false;
   std::vector<double> softness_;  // of each segment: length over the root of EI, summed over the planes of bending
   BandSystem<rotations + unknowns - 1, 2 * unknowns - rotations - 1> system_;  // of several segments
   Eigen::Matrix<double, rotations, rotations> slope_;                          // of one segment

@@ -268,6 +268,40 @@ TEST(BoundaryValue, NewtonStepsAreThoseOfOneRun) {
   }
 }
 
+// The largest distance between the arcs' ends of two resolutions' finer one, solved with this tolerance, and where
+// Newton's method ends at round-off; over the length.
+double left_by_newton(const scene::Scene& scene, double tolerance) {
+  const std::vector<scene::Span> spans = scene::spans_of(scene);
+  const fam::GrowingLoads loads(spans);
+  fam::BoundaryValue few, many, exact;
+  const std::vector<int> arcs = scene::cells_per_span(spans, 4), more = scene::cells_per_span(spans, 8);
+  few.set(loads.way(), arcs, Law::sixth_order, fam::RodModel::kirchhoff, tolerance);
+  many.set(loads.way(), more, Law::sixth_order, fam::RodModel::kirchhoff, tolerance);
+  exact.set(loads.way(), more, Law::sixth_order, fam::RodModel::kirchhoff);
+  EXPECT_EQ(few.run(), scene::Status::converged);
+  EXPECT_EQ(many.run_from(few), scene::Status::converged);
+  EXPECT_LE(many.expected_turn_rad(), tolerance);
+  EXPECT_EQ(exact.run(), scene::Status::converged);
+  double largest_mm = 0;
+  for (std::size_t k = 0; k < exact.poses().size(); ++k) {
+    const Vector3d apart_mm = many.poses()[k].position_B_mm - exact.poses()[k].position_B_mm;
+    largest_mm = std::max(largest_mm, apart_mm.norm());
+  }
+  return largest_mm / scene::length_mm(scene);
+}
+
+// The poses are those of the nodes that Newton's method ends with; measured: at most 0.22 of the tolerance.
+TEST(BoundaryValue, NewtonEndsWithinItsTolerance) {
+  std::vector<scene::Scene> scenes = scenes_with_load_growth();
+  scenes.push_back(tip_force(slender(750, 500), {0, 0.5, 0}));
+  double loosest = 0;
+  for (const scene::Scene& scene : scenes) {
+    for (const double tolerance : {1e-4, 1e-5, 1e-7}) EXPECT_LE(left_by_newton(scene, tolerance), tolerance);
+    loosest = std::max(loosest, left_by_newton(scene, 1e-2));
+  }
+  EXPECT_GT(loosest, 1e-4);  // so that it is the tolerance that decides
+}
+
 // A kept solver ends as solve() does with as many arcs: arcs too long for their series, a tendon without length.
 // An unloaded rod held at the clamp by half a turn: the residual, a sine, vanishes, and yet it is no solution.
 template <int D>
