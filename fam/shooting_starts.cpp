@@ -34,7 +34,7 @@ void Shooting<D>::start_unloaded() {
   tip.rotation_SB = clamp.rotation_SB.transpose();
   for (std::size_t k = segments_.size(); k-- > 0;) {
     nodes_[k] = tip;
-    rod_.march(segments_[k], tip);
+    if (k > 0) rod_.march(segments_[k], tip);
   }
 }
 
