@@ -126,7 +126,7 @@ void Shooting<D>::cut_into_segments() {
 
 template <int D>
 bool Shooting<D>::has_few_arcs() const {
-  return one_equilibrium() && rod_.arc_count() >= 4 * static_cast<int>(rod_.way().to.size());
+  return one_equilibrium() && rod_.arc_count() >= 2 * static_cast<int>(rod_.way().to.size());
 }
 
 // So that solve_at_once() takes none.

@@ -129,7 +129,7 @@ class Shooting {
   }
   // From the nodes as they are to those of the present load.
   bool newton(double tolerance, const OnTheWay* way = nullptr);
-  // The full load from the rest shape; first with a quarter of the arcs, whose derivatives then serve for all.
+  // The full load from the rest shape; first with a quarter of the arcs or one, whose derivatives then serve for all.
   bool solve_at_once();
   // The full load from the nodes as they are.
   bool solve_from_here();
