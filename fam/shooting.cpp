@@ -258,7 +258,8 @@ bool Shooting<D>::newton_one_segment(bool keep_slope, double tolerance, const On
     const scene::Determinant now = determinant();
     const bool tells = !(std::abs(now.log_size - last_log) > most_log_change);
     last_log = now.log_size;
-    if (keep_slope && tells && ends_measured(size, size, tolerance)) return equations.mismatch_is_small;
+    if (keep_slope && std::isfinite(last) && tells && ends_measured(size, size, tolerance))
+      return equations.mismatch_is_small;
     nodes_[0].rotation_SB = turned(nodes_[0].rotation_SB, step);
     // The next step would be smaller by what this one was, or squared after fresh derivatives.
     const double shrinkage = std::isfinite(last) ? std::min(size / last, 0.1) : 0.1;
@@ -333,7 +334,7 @@ bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const OnT
     if (way && turn_rad > way->hopeless_turn_rad) return false;
     const bool tells = !(std::abs(system_.log_determinant() - last_log) > most_log_change);
     last_log = system_.log_determinant();
-    if (keep_factors && tells && ends_measured(size, turn_rad, tolerance)) return small;
+    if (keep_factors && std::isfinite(last) && tells && ends_measured(size, turn_rad, tolerance)) return small;
     apply(system_.right(), turn_rad);
     const bool stalls = !keep_factors && size > 0.5 * last;
     const double shrinkage = std::isfinite(last) ? size / last : 0.1;

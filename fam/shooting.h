@@ -200,7 +200,7 @@ class Shooting {
   // Over segment k from its node, which the state is; fills marched_.
   void march_remembered(std::size_t k, Node& state) { rod_.march(segments_[k], state, marched_); }
   // Whether the step that a march has shown to be left is small enough to be left out: then the solution is what the
-  // march met.
+  // march met. To be asked after a step has been taken, so that small changes of the loads are not lost.
   bool ends_measured(double size, double turn_rad, double tolerance);
   // Whether derivatives that led to a step of this size do for the next one too.
   static bool slopes_last(bool were_kept, double size, double last_size) {
