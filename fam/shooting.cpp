@@ -69,62 +69,6 @@ void Shooting<D>::reserve(const Room& room) {
 }
 
 template <int D>
-bool Shooting<D>::one_equilibrium() const {
-  return bounds_.unique_length * bounds_.unique_length <= unique_length_squared &&
-         bounds_.turn_rad <= unique_turn_rad && bounds_.strain <= unique_strain;
-}
-
-template <int D>
-void Shooting<D>::cut_into_segments() {
-  const std::span<const scene::Span> bounds = rod_.way().bounds;
-  const bool planar = scene::plane_direction(bounds).has_value();
-  bounds_ = {};
-  segments_.clear();
-  softness_.assign(1, 0);
-  double since_cut = 0, convexity = 0, force_beyond_Nmm = 0, compliance_per_Nmm = 0;
-  const auto giving_way_Nmm2 = [planar](const scene::Span& span) {
-    return planar ? span.stiffness.bending_Nmm2.minCoeff() : least_stiffness_Nmm2(span);
-  };
-  for (const scene::Span& span : bounds) compliance_per_Nmm += span.length_mm() / giving_way_Nmm2(span);
-  int end_arc = rod_.arc_count();
-  walk_from_tip(bounds, rod_.arcs_per_span(), [&](const LoadedCell& arc) {
-    const double least_Nmm2 = least_stiffness_Nmm2(arc.span);
-    const double buckling_Nmm2 = giving_way_Nmm2(arc.span), by_forces = arc.load_length(buckling_Nmm2, false);
-    const double load_length = arc.load_length(buckling_Nmm2, D == 3);
-    compliance_per_Nmm = std::max(0.0, compliance_per_Nmm - arc.length_mm / buckling_Nmm2);
-    convexity += convexity_share(arc.force_N, force_beyond_Nmm, compliance_per_Nmm, arc.length_mm, buckling_Nmm2);
-    force_beyond_Nmm += arc.force_N * arc.length_mm;
-    bounds_.unique_length += load_length - by_forces;
-    const scene::Wrench tendons = straight_tendons(arc.span);
-    bounds_.load_length += load_length;
-    bounds_.turn_rad += arc.length_mm * arc.moment_Nmm / least_Nmm2;
-    if (D == 3) {  // in the plane bent rods are as good as straight ones
-      bounds_.turn_rad +=
-          arc.length_mm * (arc.span.rest_curvature_per_mm.norm() + tendons.moment_Nmm.norm() / least_Nmm2);
-    }
-    if (rod_.model() == RodModel::reissner) {
-      const double force_N = arc.force_N + tendons.force_N.norm();
-      bounds_.strain = std::max(bounds_.strain, force_N * linear_compliance_per_N(arc.span));
-    }
-    if (since_cut > 0 && since_cut + load_length > segment_load_length) {
-      segments_.push_back({arc.cell + 1, end_arc});
-      softness_.push_back(0);
-      end_arc = arc.cell + 1;
-      since_cut = 0;
-    }
-    since_cut += load_length;
-    const Eigen::Vector2d& bending_Nmm2 = arc.span.stiffness.bending_Nmm2;
-    softness_.back() += arc.length_mm * bending_Nmm2.tail<D - 1>().cwiseSqrt().cwiseInverse().sum();
-  });
-  bounds_.unique_length += std::sqrt(std::sqrt(6 * convexity));
-  segments_.push_back({0, end_arc});
-  std::reverse(segments_.begin(), segments_.end());
-  std::reverse(softness_.begin(), softness_.end());
-  nodes_.resize(segments_.size());
-  if (segments_.size() > 1) system_.resize(unknowns * static_cast<int>(segments_.size()) - rotations - D);
-}
-
-template <int D>
 bool Shooting<D>::has_few_arcs() const {
   return one_equilibrium() && rod_.arc_count() >= 2 * static_cast<int>(rod_.way().to.size());
 }
@@ -138,15 +82,6 @@ void Shooting<D>::reserve_few_arcs() {
   if (!few_arcs_) few_arcs_ = std::make_unique<Shooting>();
   few_arcs_->reserve({static_cast<std::size_t>(rod_.arc_count()) / 4 + spans, spans, tendons});
   few_counts_.reserve(spans);
-}
-
-template <int D>
-bool Shooting<D>::solve_few_arcs() {
-  few_counts_.assign(rod_.arcs_per_span().begin(), rod_.arcs_per_span().end());
-  for (int& count : few_counts_) count = std::max(1, count / 4);
-  few_arcs_->set(rod_.way(), few_counts_, rod_.law(), rod_.model(), 1e-3);
-  few_arcs_->forget_work();
-  return few_arcs_->segments_.size() == 1 && few_arcs_->solve_at_once();
 }
 
 template <int D>
@@ -379,53 +314,6 @@ void Shooting<D>::set_load_tangent(double difference, std::vector<Fields<D, 1>>&
 template <int D>
 bool Shooting<D>::newton(double tolerance, const OnTheWay* way) {
   return segments_.size() == 1 ? newton_one_segment(false, tolerance, way) : newton_segments(false, tolerance, way);
-}
-
-template <int D>
-bool Shooting<D>::solve_at_once() {
-  if (has_few_arcs() && solve_few_arcs()) {
-    set_load(1);
-    nodes_ = few_arcs_->nodes_;
-    slope_ = few_arcs_->slope_;
-    newton_steps_ += few_arcs_->newton_steps_;
-    return newton_one_segment(true, newton_tolerance_);
-  }
-  start_unloaded();
-  return solve_from_here();
-}
-
-template <int D>
-bool Shooting<D>::solve_from_here() {
-  set_load(1);
-  return newton(newton_tolerance_);
-}
-
-template <int D>
-bool Shooting<D>::solve_near(const Shooting* other, const Angular<double, D>& tip_turn_B) {
-  if (!other || segments_.size() > 1 || other->segments_.size() > 1) return solve_from_here();
-  set_load(1);
-  Rotation& tip_SB = nodes_[0].rotation_SB;
-  tip_SB = tip_SB * rotation_matrix(tip_turn_B).transpose();
-  slope_ = other->slope_;
-  return newton_one_segment(true, newton_tolerance_);
-}
-
-template <int D>
-bool Shooting<D>::solve_from(const Shooting& fewer) {
-  const auto here = [&](int arc) {
-    return static_cast<int>(static_cast<long long>(arc) * rod_.arc_count() / fewer.rod_.arc_count());
-  };
-  segments_ = fewer.segments_;
-  for (ArcRange& segment : segments_) segment = {here(segment.first_arc), here(segment.end_arc)};
-  nodes_ = fewer.nodes_;
-  newton_steps_ = fewer.newton_steps_;
-  set_load(1);
-  const scene::Determinant determinant = fewer.determinant();
-  const OnTheWay way{determinant, leading_turn_rad * std::min(1.0, std::exp(determinant.log_size / 2))};
-  slope_ = fewer.slope_;
-  if (segments_.size() == 1) return newton_one_segment(true, newton_tolerance_, &way);
-  system_ = fewer.system_;
-  return newton_segments(true, newton_tolerance_, &way);
 }
 
 // Of a taut rod the determinant is cosh(int sqrt(n_x / EI) ds) for each plane of bending.

@@ -1,5 +1,9 @@
-// What Newton's method starts from where the loads alone tell: the rest shape, or the march from the clamp.
+// What Newton's method starts from: the rest shape, the march from the clamp, or a solution at hand.
+#include "fam/rotation.h"
 #include "fam/shooting.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace fam {
 namespace {
@@ -64,9 +68,73 @@ bool Shooting<D>::start_from_clamp() {
   return true;
 }
 
+template <int D>
+bool Shooting<D>::solve_few_arcs() {
+  few_counts_.assign(rod_.arcs_per_span().begin(), rod_.arcs_per_span().end());
+  for (int& count : few_counts_) count = std::max(1, count / 4);
+  few_arcs_->set(rod_.way(), few_counts_, rod_.law(), rod_.model(), 1e-3);
+  few_arcs_->forget_work();
+  return few_arcs_->segments_.size() == 1 && few_arcs_->solve_at_once();
+}
+
+template <int D>
+bool Shooting<D>::solve_at_once() {
+  if (has_few_arcs() && solve_few_arcs()) {
+    set_load(1);
+    nodes_ = few_arcs_->nodes_;
+    slope_ = few_arcs_->slope_;
+    newton_steps_ += few_arcs_->newton_steps_;
+    return newton_one_segment(true, newton_tolerance_);
+  }
+  start_unloaded();
+  return solve_from_here();
+}
+
+template <int D>
+bool Shooting<D>::solve_from_here() {
+  set_load(1);
+  return newton(newton_tolerance_);
+}
+
+template <int D>
+bool Shooting<D>::solve_near(const Shooting* other, const Angular<double, D>& tip_turn_B) {
+  if (!other || segments_.size() > 1 || other->segments_.size() > 1) return solve_from_here();
+  set_load(1);
+  Rotation& tip_SB = nodes_[0].rotation_SB;
+  tip_SB = tip_SB * rotation_matrix(tip_turn_B).transpose();
+  slope_ = other->slope_;
+  return newton_one_segment(true, newton_tolerance_);
+}
+
+template <int D>
+bool Shooting<D>::solve_from(const Shooting& fewer) {
+  const auto here = [&](int arc) {
+    return static_cast<int>(static_cast<long long>(arc) * rod_.arc_count() / fewer.rod_.arc_count());
+  };
+  segments_ = fewer.segments_;
+  for (ArcRange& segment : segments_) segment = {here(segment.first_arc), here(segment.end_arc)};
+  nodes_ = fewer.nodes_;
+  newton_steps_ = fewer.newton_steps_;
+  set_load(1);
+  const scene::Determinant determinant = fewer.determinant();
+  const OnTheWay way{determinant, leading_turn_rad * std::min(1.0, std::exp(determinant.log_size / 2))};
+  slope_ = fewer.slope_;
+  if (segments_.size() == 1) return newton_one_segment(true, newton_tolerance_, &way);
+  system_ = fewer.system_;
+  return newton_segments(true, newton_tolerance_, &way);
+}
+
 template void Shooting<2>::start_unloaded();
 template void Shooting<3>::start_unloaded();
 template bool Shooting<2>::start_from_clamp();
 template bool Shooting<3>::start_from_clamp();
+template bool Shooting<2>::solve_at_once();
+template bool Shooting<3>::solve_at_once();
+template bool Shooting<2>::solve_from_here();
+template bool Shooting<3>::solve_from_here();
+template bool Shooting<2>::solve_near(const Shooting<2>*, const Angular<double, 2>&);
+template bool Shooting<3>::solve_near(const Shooting<3>*, const Angular<double, 3>&);
+template bool Shooting<2>::solve_from(const Shooting<2>&);
+template bool Shooting<3>::solve_from(const Shooting<3>&);
 
 }  // namespace fam

@@ -1,0 +1,72 @@
+// How a rod is cut into segments, and what its loads can do at most: one walk over the arcs, from the tip.
+#include "fam/load_length.h"
+#include "fam/shooting.h"
+#include "scene/span_facts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fam {
+
+template <int D>
+bool Shooting<D>::one_equilibrium() const {
+  return bounds_.unique_length * bounds_.unique_length <= unique_length_squared &&
+         bounds_.turn_rad <= unique_turn_rad && bounds_.strain <= unique_strain;
+}
+
+template <int D>
+void Shooting<D>::cut_into_segments() {
+  const std::span<const scene::Span> bounds = rod_.way().bounds;
+  const bool planar = scene::plane_direction(bounds).has_value();
+  bounds_ = {};
+  segments_.clear();
+  softness_.assign(1, 0);
+  double since_cut = 0, convexity = 0, force_beyond_Nmm = 0, compliance_per_Nmm = 0;
+  const auto giving_way_Nmm2 = [planar](const scene::Span& span) {
+    return planar ? span.stiffness.bending_Nmm2.minCoeff() : least_stiffness_Nmm2(span);
+  };
+  for (const scene::Span& span : bounds) compliance_per_Nmm += span.length_mm() / giving_way_Nmm2(span);
+  int end_arc = rod_.arc_count();
+  walk_from_tip(bounds, rod_.arcs_per_span(), [&](const LoadedCell& arc) {
+    const double least_Nmm2 = least_stiffness_Nmm2(arc.span);
+    const double buckling_Nmm2 = giving_way_Nmm2(arc.span), by_forces = arc.load_length(buckling_Nmm2, false);
+    const double load_length = arc.load_length(buckling_Nmm2, D == 3);
+    compliance_per_Nmm = std::max(0.0, compliance_per_Nmm - arc.length_mm / buckling_Nmm2);
+    convexity += convexity_share(arc.force_N, force_beyond_Nmm, compliance_per_Nmm, arc.length_mm, buckling_Nmm2);
+    force_beyond_Nmm += arc.force_N * arc.length_mm;
+    bounds_.unique_length += load_length - by_forces;
+    const scene::Wrench tendons = straight_tendons(arc.span);
+    bounds_.load_length += load_length;
+    bounds_.turn_rad += arc.length_mm * arc.moment_Nmm / least_Nmm2;
+    if (D == 3) {  // in the plane bent rods are as good as straight ones
+      bounds_.turn_rad +=
+          arc.length_mm * (arc.span.rest_curvature_per_mm.norm() + tendons.moment_Nmm.norm() / least_Nmm2);
+    }
+    if (rod_.model() == RodModel::reissner) {
+      const double force_N = arc.force_N + tendons.force_N.norm();
+      bounds_.strain = std::max(bounds_.strain, force_N * linear_compliance_per_N(arc.span));
+    }
+    if (since_cut > 0 && since_cut + load_length > segment_load_length) {
+      segments_.push_back({arc.cell + 1, end_arc});
+      softness_.push_back(0);
+      end_arc = arc.cell + 1;
+      since_cut = 0;
+    }
+    since_cut += load_length;
+    const Eigen::Vector2d& bending_Nmm2 = arc.span.stiffness.bending_Nmm2;
+    softness_.back() += arc.length_mm * bending_Nmm2.tail<D - 1>().cwiseSqrt().cwiseInverse().sum();
+  });
+  bounds_.unique_length += std::sqrt(std::sqrt(6 * convexity));
+  segments_.push_back({0, end_arc});
+  std::reverse(segments_.begin(), segments_.end());
+  std::reverse(softness_.begin(), softness_.end());
+  nodes_.resize(segments_.size());
+  if (segments_.size() > 1) system_.resize(unknowns * static_cast<int>(segments_.size()) - rotations - D);
+}
+
+template bool Shooting<2>::one_equilibrium() const;
+template bool Shooting<3>::one_equilibrium() const;
+template void Shooting<2>::cut_into_segments();
+template void Shooting<3>::cut_into_segments();
+
+}  // namespace fam
