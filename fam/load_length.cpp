@@ -69,6 +69,14 @@ double linear_compliance_per_N(const Span& span) {
   return span.stiffness.shear_N ? std::max(axial, 1 / span.stiffness.shear_N->minCoeff()) : axial;
 }
 
+bool strains_are_constant(std::span<const Span> spans, bool planar) {
+  bool constant = true;
+  walk_from_tip(spans, OneEach{}, [&](const LoadedCell& cell) {
+    constant = constant && cell.force_N == 0 && (planar || cell.moment_Nmm == 0);
+  });
+  return constant;
+}
+
 double largest_load_length(std::span<const Span> spans, std::span<const int> arcs_per_span) {
   double largest = 0;
   walk_from_tip(spans, OneEach{}, [&](const LoadedCell& cell) {
@@ -108,7 +116,7 @@ template <int D>
 double largest_swing_rad(std::span<const Span> spans, std::span<const int> arcs_per_span,
                          std::span<const BasicArc<D>> arcs) {
   const bool free_of_force = largest_load_length(spans, arcs_per_span) == 0;
-  if (free_of_force && D == 2) return 0;
+  if (strains_are_constant(spans, D == 2)) return 0;
   auto arc = arcs.begin();
   double largest = 0;
   for (std::size_t i = 0; i < spans.size(); ++i) {

@@ -85,6 +85,10 @@ struct OneEach {
   int operator[](std::size_t) const { return 1; }
 };
 
+// Whether each span has one strain all along it: no force acts but those of tendons, which what they leave to the rod
+// cancels, and no moment, or in the plane, where it turns with nothing.
+bool strains_are_constant(std::span<const scene::Span> spans, bool planar);
+
 // The largest load length by forces of an arc, with the least stiffness of its span.
 double largest_load_length(std::span<const scene::Span> spans, std::span<const int> arcs_per_span);
 
@@ -98,8 +102,8 @@ double swing_rate_per_mm(const scene::Span& span, const Vector3d& moment_Nmm);
 
 // How far the solved arcs swing, the largest of clamp to tip: the turn of one, or in space what its moment m grows or
 // swings by about the solution, if that is more: sqrt(|tr J^2| / 2) h, with J the derivative of m x k (m' = m x k, k
-// the strain) with respect to m. Arcs that no force acts on are exact where m lies along k, and in the plane always,
-// and do not count.
+// the strain) with respect to m. Arcs of constant strain, and others that no force acts on where m lies along k, are
+// exact and do not count.
 template <int D>
 double largest_swing_rad(std::span<const scene::Span> spans, std::span<const int> arcs_per_span,
                          std::span<const BasicArc<D>> arcs);

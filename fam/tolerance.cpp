@@ -118,6 +118,9 @@ class Ladder {
   // Of two runs that did not meet the tolerance: whether they lie on one branch.
   bool agree() const { return last_mm_ <= confirming_share * problem_.length_mm(); }
 
+  // Whether a run with the first arcs meets the tolerance by itself.
+  bool is_exact(const Run& run) { return problem_.choice().constant_strains && run.converged() && meets(run, 0, {}); }
+
   // Which of two runs, the finer with `ratio` times the arcs, meets the tolerance; null if none.
   const Run* sufficient(const Run& coarse, const Run& fine, double ratio) {
     const Distance d = distance(coarse, fine);
@@ -192,6 +195,7 @@ Found solve_to_tolerance(const Problem& problem, Run& one, Run& another) {
   Ladder ladder(problem);
   Run *coarse = &one, *fine = &another;
   coarse->solve(problem, first);
+  if (ladder.is_exact(*coarse)) return {coarse, fine, Status::converged, ladder.error_mm()};
   int times_apart = 0;
   bool apart = false, agree = false;
   for (int multiple = 1, next = 2; static_cast<double>(next) * count <= max_arcs;) {

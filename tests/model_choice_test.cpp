@@ -3,6 +3,7 @@
 #include "exact_reference/solve.h"
 #include "fam/load_length.h"
 #include "fam/solve.h"
+#include "fam/solver.h"
 #include "studies/random/promise.h"
 #include "studies/scenes/random_scene.h"
 #include "support.h"
@@ -44,6 +45,7 @@ double swing_rad(const scene::Stiffness& stiffness, const Vector3d& moment_Nmm, 
   span.end_mm = 2;
   span.stiffness = stiffness;
   span.fixed_load_B.force_N[0] = force_N;
+  span.follower_load_S.moment_Nmm = moment_Nmm;
   const Vector3d compliance(1 / stiffness.torsion_Nmm2, 1 / stiffness.bending_Nmm2[0], 1 / stiffness.bending_Nmm2[1]);
   const Vector3d turn_rad = 2 * compliance.cwiseProduct(moment_Nmm);
   if (planar) {
@@ -79,6 +81,32 @@ TEST(ModelChoice, APureEndMomentTakesOneArc) {
   // Twins: a moment that bends and twists turns in the section where GJ is not EI; a force beside it.
   EXPECT_GT(fact<int>(solved(tip_loaded({0, 0, 0}, {20, 30, -100}, Frame::follower), 1e-9), "arcs"), 1);
   EXPECT_GT(fact<int>(solved(tip_loaded({0, 0.1, 0}, {0, 0, 100}, Frame::follower), 1e-9), "arcs"), 1);
+}
+
+// Where tendons pull alone, what they leave to the rod cancels their pulls, and each span has one strain: an arc of
+// each is exact, whatever its stiffnesses and rest curvature.
+TEST(ModelChoice, TendonsAloneTakeOneArcOfEachSpan) {
+  scene::Scene rod = uniform_rod(20, {900, {500, 500}, 400, {}, 0}, {});
+  rod.sections.push_back({25, scene::Stiffness{300, {400, 200}, 500, {}, 0}, {0.02, -0.01, 0.03}});
+  rod.loads = {scene::Tendon{{2, 0.5}, 6, 45}, scene::Tendon{{-1, 1.5}, 4, 32}, scene::Tendon{{0.3, -1.7}, 5, 45}};
+  const auto off_mm = [](const scene::Scene& one, const scene::Scene& other) {
+    return (solved(one).tip().position_B_mm - exact_reference::solve(other).tip().position_B_mm).norm();
+  };
+  EXPECT_EQ(fact<int>(solved(rod), "arcs"), 3);
+  EXPECT_LT(off_mm(rod, rod), 1e-11 * 45);  // SUNDIALS; measured 3e-15 L
+  EXPECT_GT(off_mm(rod, support::stiffer(rod)), 1e-3);
+  fam::Solver kept = std::get<fam::Solver>(fam::Solver::make(rod, {}));
+  ASSERT_TRUE(kept.solve().converged());
+  EXPECT_EQ(kept.poses().size(), 4u);
+  EXPECT_LT((kept.tip().position_B_mm - exact_reference::solve(rod).tip().position_B_mm).norm(), 1e-11 * 45);
+  // Twins: a moment or a force beside them turns in the section, one of each span does not do.
+  for (const scene::Load& beside : {scene::Load(scene::Moment{45, Frame::follower, {10, 8, 0}}),
+                                    scene::Load(scene::Force{45, Frame::follower, {0, 0.2, 0.1}})}) {
+    scene::Scene loaded = rod;
+    loaded.loads.push_back(beside);
+    EXPECT_GT(fact<int>(solved(loaded), "arcs"), 3) << off_mm(loaded, loaded);
+    EXPECT_LT(off_mm(loaded, loaded), 1e-4);
+  }
 }
 
 // In the x-y plane, the x-z plane and, for round sections, any plane; the answer turns with the plane.
