@@ -14,7 +14,9 @@
 namespace fam {
 
 // Which rod: `wanted` if it is not automatic. The Kirchhoff rod is chosen where the sections neither shear nor stretch,
-// or where both together move the tip by less than a tenth of the tolerance; left_out_mm bounds what was left out.
+// or where both together move the tip by less than left_out_share of the tolerance; left_out_mm bounds what was left
+// out, and is part of the error estimate.
+constexpr double left_out_share = 0.25;
 struct RodChoice {
   enum class Why { asked_for, does_not_give_way, does_not_matter, may_matter };
   RodModel model = RodModel::automatic;

@@ -94,6 +94,28 @@ TEST(SurvivorsFam, LeftOutShearThatFollowerLoadsAmplify) {
   }
 }
 
+// Fixed loads whose load length is 59 and 78: the tips move 5.5 and 3.9 times as far as the strains add up to.
+TEST(SurvivorsFam, LeftOutShearThatLongFixedLoadsAmplify) {
+  for (const std::uint64_t index : {6779, 1169}) {
+    const Scene scene = studies::random_scene(studies::campaign_seed(777, index));
+    const auto spans = scene::spans_of(scene);
+    ASSERT_FALSE(scene::all_loads_follow(spans));
+    const double L = scene::length_mm(scene);
+    const auto solved_as = [&](fam::RodModel model) {
+      fam::Options options;
+      options.model = model;
+      options.tolerance_mm = 1e-6 * L;
+      const Equilibrium result = fam::solve(scene, options);
+      EXPECT_TRUE(result.converged());
+      return tip(result);
+    };
+    const double moved_mm = (solved_as(fam::RodModel::reissner) - solved_as(fam::RodModel::kirchhoff)).norm();
+    const double bound_mm = fam::choose_rod(spans, fam::RodModel::automatic, L).left_out_mm;
+    EXPECT_GT(moved_mm, 1e-3 * L);
+    EXPECT_GT(bound_mm, moved_mm) << index;
+  }
+}
+
 // The rules that model_choice.h states, by hand.
 std::vector<int> first_arcs(const std::vector<scene::Span>& spans, bool planar) {
   std::vector<int> arcs;
