@@ -4,14 +4,13 @@
 // moments are known beforehand, the full load is solved for at once. Beyond, it grows from zero in steps; a step is
 // taken only if Newton converges and no segment end turns by more than largest_turn_rad in it nor lies farther than
 // largest_surprise_rad from where the last steps, or the tangent at the start, pointed (both limits are wider where no
-// critical point is near). Beside a buckling or turning
-// point the branches lie too close to be told apart by their distance, but the sign of the equations' determinant
-// differs from one to the next: a step that changes it is shortened as well, or one that leads on to where it vanishes
-// (scene/branch_watch.h). Where the loads have an energy one that ends unstable is shortened as well, but passes below
-// smallest_bifurcation_step if its symmetry can hold the rod there: in the plane, whose determinant is that of motions
-// in it alone, and on the axis (a column loaded exactly on its axis stays straight), where none is watched. So the
-// answer is the equilibrium that the rod reaches when its loads grow together from zero; a snap-through ends in
-// load_step_too_small (fam/limit.h tells more).
+// critical point is near). Beside a buckling or turning point the branches lie too close to be told apart by their
+// distance, but the sign of the equations' determinant differs from one to the next: a step that changes it is
+// shortened as well, or one that leads on to where it vanishes (scene/branch_watch.h). Where the loads have an energy
+// one that ends unstable is shortened as well, but passes below smallest_bifurcation_step if its symmetry can hold the
+// rod there: in the plane, whose determinant is that of motions in it alone, and on the axis (a column loaded exactly
+// on its axis stays straight), where none is watched. So the answer is the equilibrium that the rod reaches when its
+// loads grow together from zero; a snap-through ends in load_step_too_small (fam/limit.h tells more).
 #pragma once
 
 #include "fam/shooting.h"
