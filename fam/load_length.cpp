@@ -116,7 +116,7 @@ template <int D>
 double largest_swing_rad(std::span<const Span> spans, std::span<const int> arcs_per_span,
                          std::span<const BasicArc<D>> arcs) {
   const bool free_of_force = largest_load_length(spans, arcs_per_span) == 0;
-  if (strains_are_constant(spans, D == 2)) return 0;
+  if (free_of_force && strains_are_constant(spans, D == 2)) return 0;
   auto arc = arcs.begin();
   double largest = 0;
   for (std::size_t i = 0; i < spans.size(); ++i) {
