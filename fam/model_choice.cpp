@@ -15,10 +15,9 @@ using scene::Span;
 
 // A bound on the tip's shift by shear and stretch: the strain |K_v^-1 n| summed along the rod, |n| bounded by the
 // forces beyond, times what that changes in the moments. Of 5167 random scenes with a bound between 1e-7 and 1e-2 L,
-// 3113 of them drawn after it was chosen, the tip moved by 0.77 of it at most. Without amplification three whose loads
-// are fixed moved farther than it, up to 3.7 times (at load lengths of 11, 59 and 78); of 1098 others two whose loads
-// all follow, and turn with what is shifted, moved 66 and 78 times the sum (at a load length of 46, at turns of 156
-// rad).
+// 3113 of them drawn after it was chosen, the tip moved by 0.77 of it at most. Without amplification five whose loads
+// are fixed moved farther than it, up to 3.7 times (at load lengths of 10 to 78); of 1098 others two whose loads all
+// follow, and turn with what is shifted, moved 66 and 78 times the sum (at a load length of 46, at turns of 156 rad).
 double shear_bound_mm(std::span<const Span> spans) {
   double bound = 0, load_length = 0, turn_rad = 0;
   walk_from_tip(spans, OneEach{}, [&](const LoadedCell& span) {
