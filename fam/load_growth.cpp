@@ -252,7 +252,10 @@ scene::Status LoadGrowth<D>::grow(Shooting<D>& shooting, double size, bool at_re
   double step = first_step_ = size_to_zero / std::max(size_to_zero, size);
   shooting.set_load_tangent(tangent_difference * step, tangent_);
   while (load_factor_ < 1) {
-    if (watches_determinant_) step = std::min(step, branch_.longest_step(load_factor_));
+    if (watches_determinant_) {
+      step = std::min(step, branch_.longest_step(load_factor_));
+      step = std::min(step, branch_.longest_bent_step(load_factor_));
+    }
     if (gives_up(shooting, step)) return end_.status;
     const double from = load_factor_;
     const double to = 1 - from <= 1.001 * step ? 1 : from + step;

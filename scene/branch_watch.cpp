@@ -43,7 +43,23 @@ double BranchWatch::longest_step(double from_load_factor) const {
   return longest;
 }
 
+// With x from the last load on, the determinant over the last one is 1 - slope x - bend x^2.
+double BranchWatch::longest_bent_step(double from_load_factor) const {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const Determinant& last = last_.determinant;
+  if (points_ < 3 || before_.determinant.negative != last.negative || earlier_.determinant.negative != last.negative)
+    return none;
+  const double step = last_.load_factor - before_.load_factor, two = last_.load_factor - earlier_.load_factor;
+  const double fall = std::expm1(log_fall(before_.determinant, last)) / step;
+  const double bend = (fall - std::expm1(log_fall(earlier_.determinant, last)) / two) / (two - step);
+  if (!(bend > 0)) return none;
+  const double slope = fall + bend * step;
+  const double zero = 2 / (slope + std::sqrt(slope * slope + 4 * bend));
+  return share_of_zero * (zero + last_.load_factor - from_load_factor);
+}
+
 void BranchWatch::keep(double load_factor, const Determinant& now) {
+  earlier_ = before_;
   before_ = last_;
   last_ = {load_factor, now};
   ++points_;

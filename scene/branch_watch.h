@@ -23,6 +23,9 @@ class BranchWatch {
   // log_fall, meets zero, infinite if ahead it does not. Beyond it the sign may be the old one again, where two
   // branches part or two roots lie together.
   double longest_step(double from_load_factor) const;
+  // The same of the parabola through the last three, where it falls the faster the farther it goes: where loads pass
+  // through none the line through two determinants of about the same size sees no zero, and a step may pass two.
+  double longest_bent_step(double from_load_factor) const;
 
   // The branch goes on here.
   void keep(double load_factor, const Determinant& now);
@@ -34,7 +37,7 @@ class BranchWatch {
     double load_factor = 0;
     Determinant determinant;
   };
-  Point last_, before_;
+  Point last_, before_, earlier_;
   int points_ = 0;
 };
 

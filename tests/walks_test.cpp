@@ -88,6 +88,15 @@ TEST(Walks, StopsWhereTheRodSnaps) {
   EXPECT_EQ(solver.tip().position_B_mm[1], before) << "the last solution stays";
 }
 
+// A strip without an energy, pushed on edge from one side through no load to 2.6 times its critical load on the other:
+// the determinants before and after no load are about the same.
+TEST(Walks, ThroughNoLoadToTheOtherSideOfAStrip) {
+  const std::vector<studies::WalkStep> steps = studies::walk(100248, studies::Judge::exact);
+  ASSERT_GE(steps.size(), 2u);
+  for (const studies::WalkStep& step : steps) EXPECT_NE(step.outcome, "wrong") << "step " << step.step;
+  EXPECT_EQ(steps[1].outcome, "as exact");
+}
+
 // A cable turned about, through no load at all: what tension makes of the determinant is no nearness to a branch point.
 TEST(Walks, TurnsATautCableAbout) {
   const auto cable = [](const Vector3d& force_N) {
