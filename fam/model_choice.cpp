@@ -131,7 +131,7 @@ Choice choose(std::span<const Span> spans, const Options& options, double tolera
   choice.rod =
       choose_rod(spans, needs_kirchhoff ? RodModel::kirchhoff : options.model, options.arcs == 0 ? tolerance_mm : 0);
   choice.march = scene::all_loads_follow(spans);
-  choice.constant_strains = coupled && choice.march && strains_are_constant(spans, choice.plane.has_value());
+  choice.constant_strains = coupled && strains_are_constant(spans, choice.plane.has_value());
   return choice;
 }
 

@@ -55,8 +55,8 @@ struct Choice {
   // tangent, per length and moment, is 1/GJ - 1/EI (twist_per_Nmm2).
   bool round = false;
   bool march = false;  // all loads follow the rod; else a boundary value problem
-  // A march through spans of constant strain (load_length.h), of which one arc each has no error. Laws that couple
-  // bending and twist alone.
+  // All spans are of constant strain (load_length.h): one arc each has no error. Laws that couple bending and twist
+  // alone.
   bool constant_strains = false;
 };
 Choice choose(std::span<const scene::Span> spans, const Options& options, double tolerance_mm);

@@ -195,7 +195,10 @@ Found solve_to_tolerance(const Problem& problem, Run& one, Run& another) {
   Ladder ladder(problem);
   Run *coarse = &one, *fine = &another;
   coarse->solve(problem, first);
-  if (ladder.is_exact(*coarse)) return {coarse, fine, Status::converged, ladder.error_mm()};
+  if (ladder.is_exact(*coarse)) {
+    fine->status = Status::not_converged;  // it may hold another problem's answer
+    return {coarse, fine, Status::converged, ladder.error_mm()};
+  }
   int times_apart = 0;
   bool apart = false, agree = false;
   for (int multiple = 1, next = 2; static_cast<double>(next) * count <= max_arcs;) {

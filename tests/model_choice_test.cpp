@@ -109,6 +109,27 @@ TEST(ModelChoice, TendonsAloneTakeOneArcOfEachSpan) {
   }
 }
 
+// In the plane a moment turns with nothing, fixed in space or not.
+TEST(ModelChoice, MomentsInThePlaneTakeOneArcOfEachSpan) {
+  scene::Scene rod = uniform_rod(20, slender(500, 400), {scene::Moment{45, Frame::fixed, {0, 0, 60}}});
+  rod.sections.push_back({25, slender(300, 200), {0, 0, -0.02}});
+  rod.loads.push_back(scene::Moment{12, Frame::follower, {0, 0, -95}});
+  const auto off_mm = [](const scene::Scene& one, const scene::Scene& other) {
+    return (solved(one).tip().position_B_mm - exact_reference::solve(other).tip().position_B_mm).norm();
+  };
+  EXPECT_EQ(fact<int>(solved(rod), "arcs"), 3);
+  EXPECT_LT(off_mm(rod, rod), 1e-11 * 45);  // SUNDIALS; measured 2e-16 L
+  EXPECT_GT(off_mm(rod, support::stiffer(rod)), 1e-2);
+  // Twins: out of the plane the fixed moment turns in the section, a force bends each section otherwise.
+  for (const scene::Load& beside : {scene::Load(scene::Moment{45, Frame::fixed, {0, 8, 0}}),
+                                    scene::Load(scene::Force{45, Frame::fixed, {0, 0.2, 0}})}) {
+    scene::Scene loaded = rod;
+    loaded.loads.push_back(beside);
+    EXPECT_GT(fact<int>(solved(loaded), "arcs"), 3);
+    EXPECT_LT(off_mm(loaded, loaded), 1e-3 * 45);
+  }
+}
+
 // In the x-y plane, the x-z plane and, for round sections, any plane; the answer turns with the plane.
 TEST(ModelChoice, APlanarSceneRunsThePlanarKernel) {
   for (const Frame frame : {Frame::follower, Frame::fixed}) {
