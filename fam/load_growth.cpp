@@ -45,7 +45,7 @@ void LoadGrowth<D>::set(const Shooting<D>& shooting) {
   tangent_.resize(shooting.nodes().size());
   watches_stability_ = scene::is_conservative(shooting.rod().way().bounds);
   if (!watches_stability_) return;
-  judge_.reserve({shooting.nodes().size(), shooting.rod().way().to.size(), 0});  // so that no step takes memory
+  judge_.reserve({shooting.nodes().size(), shooting.rod().way().to.size(), most_tendons(shooting.rod().way().to)});
   judge_.set(shooting.rod());
 }
 

@@ -2,6 +2,12 @@
 
 namespace fam {
 
+std::size_t most_tendons(std::span<const scene::Span> spans) {
+  std::size_t most = 0;
+  for (const scene::Span& span : spans) most = std::max(most, span.tendons.size());
+  return most;
+}
+
 template <int D>
 void LoadedRod<D>::set(const LoadWay& way, std::span<const int> arcs_per_span, Law law, RodModel model) {
   way_ = way;

@@ -49,6 +49,8 @@ class GrowingLoads {
 struct Room {
   std::size_t arcs, spans, tendons;
 };
+// Of a span.
+std::size_t most_tendons(std::span<const scene::Span> spans);
 
 // In space, D = 3, or for rods in the x-y plane, D = 2 (spans with nothing out of it).
 template <int D>

@@ -76,9 +76,7 @@ bool Shooting<D>::has_few_arcs() const {
 // So that solve_at_once() takes none.
 template <int D>
 void Shooting<D>::reserve_few_arcs() {
-  const std::size_t spans = rod_.way().to.size();
-  std::size_t tendons = 0;
-  for (const scene::Span& span : rod_.way().to) tendons = std::max(tendons, span.tendons.size());
+  const std::size_t spans = rod_.way().to.size(), tendons = most_tendons(rod_.way().to);
   if (!few_arcs_) few_arcs_ = std::make_unique<Shooting>();
   few_arcs_->reserve({static_cast<std::size_t>(rod_.arc_count()) / 4 + spans, spans, tendons});
   few_counts_.reserve(spans);

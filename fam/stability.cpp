@@ -80,6 +80,8 @@ CrossTurn cross_turn(const LoadedRod<3>& rod, std::span<const ArcRange> segments
 
 Stability StabilityJudge<2>::operator()(const LoadedRod<2>& rod, std::span<const ArcRange> segments,
                                         std::span<const SectionState<2>> nodes) {
+  if (!is_in_space_) in_space_.set(rod.way(), rod.arcs_per_span(), rod.law(), rod.model());
+  is_in_space_ = true;
   in_space_.set_load(rod.load_factor());
   nodes_.resize(nodes.size());
   for (std::size_t k = 0; k < nodes.size(); ++k) {

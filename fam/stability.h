@@ -56,16 +56,17 @@ class StabilityJudge<3> {
 template <>
 class StabilityJudge<2> {
  public:
+  // So that no judgement takes memory.
   void reserve(const Room& room) {
     in_space_.reserve(room);
     nodes_.reserve(room.arcs);
   }
-  // Takes memory where more arcs or segments are asked for than ever before.
-  void set(const LoadedRod<2>& rod) { in_space_.set(rod.way(), rod.arcs_per_span(), rod.law(), rod.model()); }
+  void set(const LoadedRod<2>&) { is_in_space_ = false; }
   Stability operator()(const LoadedRod<2>& rod, std::span<const ArcRange> segments,
                        std::span<const SectionState<2>> nodes);
 
  private:
+  bool is_in_space_ = false;  // made when first asked for
   LoadedRod<3> in_space_;
   std::vector<SectionState<3>> nodes_;
 };
