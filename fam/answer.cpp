@@ -109,10 +109,11 @@ std::vector<scene::Station> ends(const Problem& problem, const Solution& solutio
 
 // As Equilibrium has it.
 double tip_angle_rad(const Problem& problem, const Run& run, const std::vector<scene::Station>& stations) {
-  const std::optional<Vector3d> normal_B = scene::plane_normal(problem.scene_spans());
+  const Matrix3d& rotation_BP = problem.choice().rotation_BP;
+  const std::optional<Vector3d> normal_B =
+      problem.choice().plane ? Vector3d(rotation_BP.col(2)) : scene::plane_normal(problem.scene_spans());
   if (!normal_B) return scene::tip_angle_rad(stations, std::nullopt);
-  return run.engine.visit(
-      [&](const auto& solver) { return turn_rad(solver.solved(), problem.choice().rotation_BP, *normal_B); });
+  return run.engine.visit([&](const auto& solver) { return turn_rad(solver.solved(), rotation_BP, *normal_B); });
 }
 
 std::string rounded(double value) {

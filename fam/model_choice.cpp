@@ -33,16 +33,19 @@ double shear_bound_mm(std::span<const Span> spans) {
 }
 
 void turn(Span& span, const Matrix3d& rotation_PB, bool swap) {
+  const bool turns = rotation_PB(1, 1) != 1;
   const auto turned = [&](Vector3d& v, bool is_turn) {
-    v = rotation_PB * v;
+    if (turns) v = rotation_PB * v;
     (is_turn ? v[1] : v[2]) = 0;
   };
   for (scene::Wrench* wrench : {&span.follower_load_S, &span.fixed_load_B}) {
     turned(wrench->force_N, false);
     turned(wrench->moment_Nmm, true);
   }
-  span.fixed_force_arms_BS_Nmm = rotation_PB * span.fixed_force_arms_BS_Nmm * rotation_PB.transpose();
-  for (scene::SectionTendon& tendon : span.tendons) tendon.arm_S_mm = rotation_PB * tendon.arm_S_mm;
+  if (turns) {
+    span.fixed_force_arms_BS_Nmm = rotation_PB * span.fixed_force_arms_BS_Nmm * rotation_PB.transpose();
+    for (scene::SectionTendon& tendon : span.tendons) tendon.arm_S_mm = rotation_PB * tendon.arm_S_mm;
+  }
   turned(span.follower_force_S_N_per_mm, false);
   turned(span.fixed_force_B_N_per_mm, false);
   turned(span.rest_curvature_per_mm, true);

@@ -17,7 +17,7 @@ bool Shooting<D>::one_equilibrium() const {
 template <int D>
 void Shooting<D>::cut_into_segments() {
   const std::span<const scene::Span> bounds = rod_.way().bounds;
-  const bool planar = scene::plane_direction(bounds).has_value();
+  const bool planar = D == 2 || scene::plane_direction(bounds).has_value();
   bounds_ = {};
   segments_.clear();
   softness_.assign(1, 0);

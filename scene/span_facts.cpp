@@ -82,6 +82,7 @@ class DirectionFinder {
 
 // Each lever arm and its force.
 bool arms_agree(const Span& span, DirectionFinder& finder) {
+  if (span.fixed_force_arms_BS_Nmm.isZero(0)) return true;
   for (int axis = 0; axis < 3; ++axis) {
     if (!finder.agrees(span.fixed_force_arms_BS_Nmm.row(axis).tail<2>().transpose())) return false;
   }
