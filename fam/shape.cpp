@@ -67,7 +67,7 @@ SectionPose pose_by_bezier(const Arc& arc, const SectionPose& proximal, double f
 // The law's step of the part beyond the fraction: the motion, and the wrench at its proximal end.
 template <int D>
 template <bool with_shear>
-BasicMotion<double, D> ArcInterior<D>::step(double fraction, BasicWrench<double, D>& wrench) {
+FAM_FLATTEN BasicMotion<double, D> ArcInterior<D>::step(double fraction, BasicWrench<double, D>& wrench) {
   const auto k = static_cast<std::size_t>(arc_);
   const BasicWrench<double, D>& distal = rod_->distal_wrenches_S[k];
   const double part = 1 - fraction;
