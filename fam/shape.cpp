@@ -75,17 +75,23 @@ FAM_FLATTEN BasicMotion<double, D> ArcInterior<D>::step(double fraction, BasicWr
   if (span_->distributed) forces = span_->template forces<double>(rod_->poses[k + 1].rotation_BS.transpose());
   const ArcForces<double, D>* distributed = span_->distributed ? &forces : nullptr;
   if (rod_->law == Law::sixth_order) {
-    if (!has_series_) series_ = series_of<with_shear, 7>(span_->constants, distributed, distal);
-    has_series_ = true;
-    const RodSeries<double, D, 7> s = part_of(series_, part);
-    const BasicMotion<double, D> motion = exponential(magnus<with_shear>(s));
-    wrench = distributed ? proximal_wrench(s) : transport(motion, distal);
+    if (!has_series_) {
+      if (distributed) series_ = series_of<with_shear, 7>(span_->constants, distributed, distal);
+      else first_terms_ = series_of<with_shear, 6>(span_->constants, distributed, distal);
+      has_series_ = true;
+    }
+    if (distributed) {
+      const RodSeries<double, D, 7> s = part_of(series_, part);
+      wrench = proximal_wrench(s);
+      return exponential(magnus<with_shear>(s));
+    }
+    const BasicMotion<double, D> motion = exponential(magnus<with_shear>(part_of(first_terms_, part)));
+    wrench = transport(motion, distal);
     return motion;
   }
   wrench = distal;
   const BasicArcConstants<D> constants = part_of(span_->constants, part);
-  forces.follower_S_N *= part;
-  forces.fixed_D_N *= part;
+  if (distributed) forces = {part * forces.follower_S_N, part * forces.fixed_D_N};
   BasicScrew<double, D> screw;
   if (constants.is_elastic()) {
     return law_step(rod_->law, ElasticSection<with_shear, double, D>(constants), distributed, wrench, screw);

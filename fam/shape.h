@@ -47,7 +47,8 @@ class ArcInterior {
   const SpanArcs<D>* span_;
   int arc_;
   bool has_series_ = false;
-  RodSeries<double, D, 7> series_;
+  RodSeries<double, D, 7> series_;       // with distributed forces
+  RodSeries<double, D, 6> first_terms_;  // without
 };
 
 // Whether a straight tendon (fam/tendon.h), which the laws do not check, has collapsed (smallest_tendon_stretch).
