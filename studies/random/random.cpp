@@ -23,6 +23,7 @@ const Sizes small = {{{0, 1000}}, 200, 200};
 void random(const StudyOptions& options) {
   const Sizes& sizes = options.quick ? small : whole;
   const std::filesystem::path folder = options.output / "random", blocks = folder / "blocks";
+  std::filesystem::remove_all(blocks);  // of other code, or half done: it would be skipped
   for (const auto& [from, to] : sizes.seeds) run_blocks(from, to, blocks, options.progress);
   second_opinions(blocks);
   const RandomData data{all_outcomes(blocks), all_promises(sizes.promises, mixed_seed, options.progress),
