@@ -22,7 +22,7 @@ void Shooting<D>::cut_into_segments() {
   segments_.clear();
   softness_.assign(1, 0);
   double since_cut = 0, convexity = 0, force_beyond_Nmm = 0, compliance_per_Nmm = 0;
-  const auto giving_way_Nmm2 = [planar](const scene::Span& span) {
+  const auto giving_way_Nmm2 = [&](const scene::Span& span) {
     return planar ? span.stiffness.bending_Nmm2.minCoeff() : least_stiffness_Nmm2(span);
   };
   for (const scene::Span& span : bounds) compliance_per_Nmm += span.length_mm() / giving_way_Nmm2(span);
