@@ -72,7 +72,8 @@ double linear_compliance_per_N(const Span& span) {
 bool strains_are_constant(std::span<const Span> spans, bool planar) {
   bool constant = true;
   walk_from_tip(spans, OneEach{}, [&](const LoadedCell& cell) {
-    constant = constant && cell.force_N == 0 && (planar || cell.moment_Nmm == 0);
+    const bool known = cell.span.fixed_force_arms_BS_Nmm.isZero(0);
+    constant = constant && known && cell.force_N == 0 && (planar || cell.moment_Nmm == 0);
   });
   return constant;
 }

@@ -85,8 +85,9 @@ struct OneEach {
   int operator[](std::size_t) const { return 1; }
 };
 
-// Whether each span has one strain all along it: no force acts but those of tendons, which what they leave to the rod
-// cancels, and no moment, or in the plane, where it turns with nothing.
+// Whether each span has one strain all along it, known before the shape is: no force acts but those of tendons, which
+// what they leave to the rod cancels, and no moment, or in the plane, where it turns with nothing; nor do forces off the
+// centreline that cancel, whose moment is the shape's and leaves more than one equilibrium.
 bool strains_are_constant(std::span<const scene::Span> spans, bool planar);
 
 // The largest load length by forces of an arc, with the least stiffness of its span.
