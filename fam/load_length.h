@@ -86,8 +86,8 @@ struct OneEach {
 };
 
 // Whether each span has one strain all along it, known before the shape is: no force acts but those of tendons, which
-// what they leave to the rod cancels, and no moment, or in the plane, where it turns with nothing; nor do forces off the
-// centreline that cancel, whose moment is the shape's and leaves more than one equilibrium.
+// what they leave to the rod cancels, and no moment, or in the plane, where it turns with nothing; nor do forces off
+// the centreline that cancel, whose moment is the shape's and may leave more than one equilibrium.
 bool strains_are_constant(std::span<const scene::Span> spans, bool planar);
 
 // The largest load length by forces of an arc, with the least stiffness of its span.
