@@ -2,15 +2,16 @@
 //
 // Where the loads are too small for a second equilibrium (Shooting::one_equilibrium), or there is none because the
 // moments are known beforehand, the full load is solved for at once. Beyond, it grows from zero in steps; a step is
-// taken only if Newton converges and no segment end turns by more than largest_turn_rad in it nor lies farther than
-// largest_surprise_rad from where the last steps, or the tangent at the start, pointed (both limits are wider where no
-// critical point is near). Beside a buckling or turning point the branches lie too close to be told apart by their
-// distance, but the sign of the equations' determinant differs from one to the next: a step that changes it is
-// shortened as well, or one that leads on to where it vanishes (scene/branch_watch.h). Where the loads have an energy
-// one that ends unstable is shortened as well, but passes below smallest_bifurcation_step if its symmetry can hold the
-// rod there: in the plane, whose determinant is that of motions in it alone, and on the axis (a column loaded exactly
-// on its axis stays straight), where none is watched. So the answer is the equilibrium that the rod reaches when its
-// loads grow together from zero; a snap-through ends in load_step_too_small (fam/limit.h tells more).
+// taken only if Newton converges as it does near a solution (Contraction), and no segment end turns by more than
+// largest_turn_rad in it nor lies farther than largest_surprise_rad, or than a share of the turn, from where the last
+// steps, or the tangent at the start, pointed (the limits are wider where no critical point is near). Beside a buckling
+// or turning point the branches lie too close to be told apart by their distance, but the sign of the equations'
+// determinant differs from one to the next: a step that changes it is shortened as well, or one that leads on to where
+// it vanishes (scene/branch_watch.h). Where the loads have an energy one that ends unstable is shortened as well, but
+// passes below smallest_bifurcation_step if its symmetry can hold the rod there: in the plane, whose determinant is
+// that of motions in it alone, and on the axis (a column loaded exactly on its axis stays straight), where none is
+// watched. So the answer is the equilibrium that the rod reaches when its loads grow together from zero; a snap-through
+// ends in load_step_too_small (fam/limit.h tells more).
 #pragma once
 
 #include "fam/shooting.h"
@@ -85,8 +86,12 @@ class LoadGrowth {
   bool nears_critical(const scene::Determinant& now) const {
     return near_critical_ || scene::has_fallen(start_determinant_, now);
   }
-  double growth_of_step(double surprise) const;
-  std::optional<double> try_step(Shooting<D>& shooting, double to);
+  // The largest turn in a step and the largest rotation that was not predicted, in units of what is allowed.
+  struct StepSize {
+    double turn = 0, surprise = 0;
+  };
+  double growth_after(const StepSize& size) const;
+  std::optional<StepSize> try_step(Shooting<D>& shooting, double to);
   bool is_unstable(const Shooting<D>& shooting) { return judge(shooting).conjugate_points > 0; }
   bool stays_on_branch(Shooting<D>& shooting, double step);
   bool gives_up(const Shooting<D>& shooting, double step);

@@ -22,6 +22,9 @@ Eigen::Matrix<double, 1, 1> sine_slope(const Eigen::Matrix2d& M) {
   return Eigen::Matrix<double, 1, 1>(0.5 * M.trace());
 }
 
+// Below it no other branch is meant. With 1e-4 columns far beyond their critical load, and coils, end in work_limit.
+constexpr double least_straying_rad = 0.02;
+
 }  // namespace
 
 template <int D>
@@ -160,6 +163,14 @@ void Shooting<D>::march_all() {
   marched_is_of_nodes_ = true;
 }
 
+bool Contraction::is_lost(const OnTheWay& way, double turn_rad, bool fresh) {
+  const bool falls = turn_rad <= std::max(last_turn_rad_ / 2, least_straying_rad);
+  const bool strays = fresh && last_was_fresh_ && !falls && !way.near_critical;
+  last_turn_rad_ = turn_rad;
+  last_was_fresh_ = fresh;
+  return strays || turn_rad > way.hopeless_turn_rad;
+}
+
 // One segment: the tip's rotation, on the stack. Derivatives are fresh while the steps are long, and after that mended
 // by Broyden's secant update. slope_ holds them between calls, `keep_slope` says whether it does at the start.
 template <int D>
@@ -167,6 +178,7 @@ bool Shooting<D>::newton_one_segment(bool keep_slope, double tolerance, const On
   SegmentEquations equations;
   Angular<double, D> step = Angular<double, D>::Zero();
   Angular<double, D> last_residual = step;
+  Contraction contraction;
   double last = std::numeric_limits<double>::infinity();
   double last_log = keep_slope ? determinant().log_size : std::numeric_limits<double>::quiet_NaN();
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
@@ -186,7 +198,7 @@ bool Shooting<D>::newton_one_segment(bool keep_slope, double tolerance, const On
     last_residual = residual;
     step = -slope_.inverse() * residual;
     const double size = step.norm();
-    if (!std::isfinite(size) || (way && size > way->hopeless_turn_rad)) return false;
+    if (!std::isfinite(size) || (way && contraction.is_lost(*way, size, !keep_slope))) return false;
     if (size > largest_newton_turn_rad) step *= largest_newton_turn_rad / size;
     const scene::Determinant now = determinant();
     const bool tells = !(std::abs(now.log_size - last_log) > most_log_change);
@@ -255,6 +267,7 @@ template <int D>
 bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const OnTheWay* way) {
   bool kept_last = keep_factors;
   double last_log = keep_factors ? system_.log_determinant() : std::numeric_limits<double>::quiet_NaN();
+  Contraction contraction;
   int stalled = 0;
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
@@ -264,7 +277,7 @@ bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const OnT
     system_.substitute();
     if (!system_.right().allFinite()) return false;
     const double turn_rad = largest_turn_rad(system_.right()), size = system_.right().cwiseAbs().maxCoeff();
-    if (way && turn_rad > way->hopeless_turn_rad) return false;
+    if (way && contraction.is_lost(*way, turn_rad, !keep_factors)) return false;
     const bool tells = !(std::abs(system_.log_determinant() - last_log) > most_log_change);
     last_log = system_.log_determinant();
     if (keep_factors && std::isfinite(last) && tells && ends_measured(size, turn_rad, tolerance)) return small;

@@ -302,6 +302,23 @@ TEST(BoundaryValue, NewtonEndsWithinItsTolerance) {
   }
 }
 
+// Newton's steps near a solution shrink by more than half (Deuflhard 2004, section 5.1: contraction at most 1/2).
+TEST(BoundaryValue, NewtonOnTheWayContracts) {
+  const fam::OnTheWay smooth{{}, 0.4, false}, near_critical{{}, 0.4, true};
+  const auto is_lost = [](const fam::OnTheWay& way, std::pair<double, bool> first, std::pair<double, bool> second) {
+    fam::Contraction contraction;
+    EXPECT_FALSE(contraction.is_lost(way, first.first, first.second));
+    return contraction.is_lost(way, second.first, second.second);
+  };
+  EXPECT_FALSE(is_lost(smooth, {0.12, true}, {0.059, true}));
+  EXPECT_TRUE(is_lost(smooth, {0.12, true}, {0.061, true}));
+  EXPECT_FALSE(is_lost(smooth, {0.12, true}, {0.061, false})) << "with the derivatives of the first";
+  EXPECT_FALSE(is_lost(smooth, {0.12, false}, {0.061, true}));
+  EXPECT_FALSE(is_lost(near_critical, {0.12, true}, {0.061, true}));
+  EXPECT_FALSE(is_lost(smooth, {0.01, true}, {0.019, true})) << "too near for another branch";
+  EXPECT_TRUE(is_lost(near_critical, {0.12, true}, {0.41, false})) << "farther than a Newton step may lead";
+}
+
 // Differences of a kept solver's tips over changes far below its tolerance, as a general optimiser takes them, against
 // its own derivatives; measured: 2e-5 of them.
 TEST(BoundaryValue, SmallChangesMoveTheTip) {

@@ -61,6 +61,16 @@ TEST(SurvivorsFam, StripPushedAsideByNextToNothing) {
   }
 }
 
+// A rod of twelve sections under moments, which has another equilibrium 0.05 L away: Newton's steps of 0.12 and 0.17
+// rad led there within the surprise allowed, the determinant far from zero.
+TEST(SurvivorsFam, NewtonThatDoesNotContract) {
+  const Scene rod = studies::random_scene(studies::campaign_seed(60606, 72));
+  const double tolerance_mm = 1e-3 * scene::length_mm(rod);
+  const Vector3d exact_mm = tip(by_exact(rod));
+  EXPECT_LT((tip(by_fam(rod, tolerance_mm)) - exact_mm).norm(), tolerance_mm);
+  EXPECT_GT((tip(by_fam(support::stiffer(rod), tolerance_mm)) - exact_mm).norm(), 3 * tolerance_mm);
+}
+
 // Of 630 000 random scenes the three whose answers were wrong, the first two silently: more arcs led a coil to another
 // equilibrium, 0.03 L off, and a strip to the unstable one between its two stable ones, where fewer arcs were still
 // below the critical load; 2 and 4 arcs of a strip within a thousandth of it were alike by chance.
@@ -225,6 +235,20 @@ TEST(SurvivorsFam, EulersLoadIsPassedInAShortStep) {
 }
 TEST(SurvivorsExact, EulersLoadIsPassedInAShortStep) {
   EXPECT_GE(steps_past_eulers_load([](const Scene& scene) { return by_exact(scene); }), 9);
+}
+
+// A coil, whose load steps meet the largest turn: each step three times longer than the last was refused and halved
+// twice, and the work limit met.
+TEST(SurvivorsFam, CoilsGrowWithinTheLargestTurn) {
+  const Scene coil = studies::random_scene(studies::campaign_seed(70001, 8931));
+  const double tolerance_mm = 1e-3 * scene::length_mm(coil);
+  const Vector3d exact_mm = tip(by_exact(coil));
+  const auto grown = [tolerance_mm](const Scene& scene) {
+    return fam::solve(scene, {.tolerance_mm = tolerance_mm, .locate_limit = false});
+  };
+  ASSERT_TRUE(grown(coil).converged()) << grown(coil).message;
+  EXPECT_LT((tip(grown(coil)) - exact_mm).norm(), tolerance_mm);
+  EXPECT_GT((tip(grown(support::stiffer(coil))) - exact_mm).norm(), 3 * tolerance_mm);
 }
 
 // A strip twisted by ten thousand turns: its steps are a half radian each, and too many.
