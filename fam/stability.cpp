@@ -22,10 +22,6 @@ bool smallest_eigenvalue_is_negative(const Matrix3d& matrix) {
   return values[smallest].real() < 0;
 }
 
-// Of the turns over the clamp's arc. Of a column far beyond Euler's load, pushed aside by 1e-12 EI/L^2, they are 1e-11
-// to 1e-7 of either sign from one load step to the next; with 1e-10 two of its runs still differ by chance.
-constexpr double neutral_determinant = 1e-8;
-
 }  // namespace
 
 bool agree(const Stability& a, const Stability& b, double share) {
@@ -57,17 +53,14 @@ bool march_free_tip(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
 
 }  // namespace
 
-// The turn over one arc has a negative eigenvalue for each conjugate point in it. At the clamp one so small is neither:
-// its sign is that of what Newton's method left out.
+// The turn over one arc has a negative eigenvalue for each conjugate point in it.
 Stability stability(const LoadedRod<3>& rod, std::span<const ArcRange> segments, std::span<const SectionState<3>> nodes,
                     bool is_free) {
   Stability result;
   const bool finite = march_free_tip(rod, segments, nodes, [&](const Matrix3d& turn, bool at_clamp) {
-    const double size = std::abs(turn.determinant());
-    const bool is_neutral = is_free || size < neutral_determinant;
     result.conjugate_points += negative_eigenvalues(turn);
-    result.log_determinant += std::log(size);
-    if (is_neutral && at_clamp && smallest_eigenvalue_is_negative(turn)) --result.conjugate_points;
+    result.log_determinant += std::log(std::abs(turn.determinant()));
+    if (is_free && at_clamp && smallest_eigenvalue_is_negative(turn)) --result.conjugate_points;
   });
   if (!finite && !is_free) result.log_determinant = std::numeric_limits<double>::quiet_NaN();
   return result;
