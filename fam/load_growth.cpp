@@ -13,8 +13,8 @@ namespace {
 
 // Of a segment end in a step; the turn is chosen, not measured. With surprises of 0.05 rad none of 20 000 strips and
 // heavy rods is led astray, with 0.07 one strip to its mirrored branch, with 0.1 two. Where no critical point is near
-// larger ones do: of 45 000 random scenes none ends elsewhere with 0.2, nor with no limit but that of a Newton step. But
-// of 596 rods under strong couples of fixed forces off the centreline 12 do so without one, with these 7.
+// larger ones do: of 45 000 random scenes none ends elsewhere with 0.2, nor with no limit but that of a Newton step.
+// But of 596 rods under strong couples of fixed forces off the centreline 12 do so without one, with these 7.
 constexpr double largest_turn_rad = 0.5, largest_smooth_turn_rad = 1;
 constexpr double largest_surprise_rad = 0.05, largest_smooth_surprise_rad = 0.1;
 // Of the largest turn of a step: the surprise, or else the branch is another one. A strip pushed aside by 1e-5 of its

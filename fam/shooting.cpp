@@ -22,8 +22,7 @@ Eigen::Matrix<double, 1, 1> sine_slope(const Eigen::Matrix2d& M) {
   return Eigen::Matrix<double, 1, 1>(0.5 * M.trace());
 }
 
-// Below it no other branch is meant. With 1e-4 random scene 99989, a coil or cable whose Newton steps of 1e-3 rad do not
-// fall, ends in work_limit.
+// Below it no other branch is meant. With 1e-4 in its place random scene 99989 ends in work_limit.
 constexpr double least_straying_rad = 0.02;
 
 }  // namespace
