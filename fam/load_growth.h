@@ -4,14 +4,15 @@
 // moments are known beforehand, the full load is solved for at once. Beyond, it grows from zero in steps; a step is
 // taken only if Newton converges as it does near a solution (Contraction), and no segment end turns by more than
 // largest_turn_rad in it nor lies farther than largest_surprise_rad, or than a share of the turn, from where the last
-// steps, or the tangent at the start, pointed (the limits are wider where no critical point is near). Beside a buckling
-// or turning point the branches lie too close to be told apart by their distance, but the sign of the equations'
-// determinant differs from one to the next: a step that changes it is shortened as well, or one that leads on to where
-// it vanishes (scene/branch_watch.h). Where the loads have an energy one that ends unstable is shortened as well, but
-// passes below smallest_bifurcation_step if its symmetry can hold the rod there: in the plane, whose determinant is
-// that of motions in it alone, and on the axis (a column loaded exactly on its axis stays straight), where none is
-// watched. So the answer is the equilibrium that the rod reaches when its loads grow together from zero; a snap-through
-// ends in load_step_too_small (fam/limit.h tells more).
+// steps, or the tangent at the start, pointed (the limits are wider where no critical point is near), nor in the plane
+// from where the tangents at both its ends lead. Beside a buckling or turning point the branches lie too close to be
+// told apart by their distance, but the sign of the equations' determinant differs from one to the next: a step that
+// changes it is shortened as well, or one that leads on to where it vanishes (scene/branch_watch.h). Where the loads
+// have an energy one that ends unstable is shortened as well, but passes below smallest_bifurcation_step if its
+// symmetry can hold the rod there: in the plane, whose determinant is that of motions in it alone, and on the axis (a
+// column loaded exactly on its axis stays straight), where none is watched. So the answer is the equilibrium that the
+// rod reaches when its loads grow together from zero; a snap-through ends in load_step_too_small (fam/limit.h tells
+// more).
 #pragma once
 
 #include "fam/shooting.h"
@@ -69,6 +70,7 @@ class LoadGrowth {
 
  private:
   using Nodes = std::vector<SectionState<D>>;
+  using Tangent = std::vector<Fields<D, 1>>;  // of the nodes by the load factor
 
   void forget_way();
   scene::Status solve_known_moments(Shooting<D>& shooting);
@@ -76,7 +78,7 @@ class LoadGrowth {
   // rod is stable.
   scene::Status grow(Shooting<D>& shooting, double size, bool at_rest);
   void start_watch(const Shooting<D>& shooting, bool at_rest);
-  // How many times the nodes change by what they did since the last loads but one and two, and by the start's tangent.
+  // How many times the nodes change by what they did since the last loads but one and two, and by the tangent.
   struct Shares {
     double previous = 0, earlier = 0, tangent = 0;
   };
@@ -91,14 +93,17 @@ class LoadGrowth {
     double turn = 0, surprise = 0;
   };
   double growth_after(const StepSize& size) const;
+  // After a step of this length in which a node turned by so much; sets next_tangent_.
+  bool follows_tangents(Shooting<D>& shooting, double step, double turn_rad);
   std::optional<StepSize> try_step(Shooting<D>& shooting, double to);
   bool is_unstable(const Shooting<D>& shooting) { return judge(shooting).conjugate_points > 0; }
   bool stays_on_branch(Shooting<D>& shooting, double step);
   bool gives_up(const Shooting<D>& shooting, double step);
 
-  Nodes start_, guess_;                // of a step
-  Nodes previous_, earlier_;           // at the last loads but one and two
-  std::vector<Fields<D, 1>> tangent_;  // of the nodes by the load factor, where the way starts
+  Nodes start_, guess_;       // of a step
+  Nodes previous_, earlier_;  // at the last loads but one and two
+  Tangent tangent_;           // where the way starts, in the plane at the present load
+  Tangent next_tangent_;      // in the plane where a step leads
   double load_factor_ = 0, previous_factor_ = 0, earlier_factor_ = 0, first_step_ = 1;
   scene::BranchWatch branch_;
   scene::Determinant start_determinant_;  // where the way starts

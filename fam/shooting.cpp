@@ -239,6 +239,13 @@ void Shooting<D>::assemble(int k, const SegmentEquations& equations) {
 }
 
 template <int D>
+void Shooting<D>::set_right(std::size_t k, const SegmentEquations& equations) {
+  const auto row = static_cast<Eigen::Index>(k > 0 ? unknowns * k - rotations - D : 0);
+  const auto rows = k > 0 ? unknowns : rotations;
+  system_.right().segment(row, rows) = -equations.residual.head(rows);
+}
+
+template <int D>
 bool Shooting<D>::evaluate_system(bool keep_factors, bool& mismatches_are_small) {
   SegmentEquations equations;
   mismatches_are_small = true;
@@ -254,9 +261,7 @@ bool Shooting<D>::evaluate_system(bool keep_factors, bool& mismatches_are_small)
       assemble(static_cast<int>(k), equations);
     }
     mismatches_are_small = mismatches_are_small && equations.mismatch_is_small;
-    const auto row = static_cast<Eigen::Index>(k > 0 ? unknowns * k - rotations - D : 0);
-    const auto rows = k > 0 ? unknowns : rotations;
-    system_.right().segment(row, rows) = -equations.residual.head(rows);
+    set_right(k, equations);
   }
   return system_.right().allFinite() && (keep_factors || system_.factorise());
 }
@@ -302,7 +307,7 @@ bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const OnT
 template <int D>
 void Shooting<D>::set_load_tangent(double difference, std::vector<Fields<D, 1>>& tangent) {
   const double factor = rod_.load_factor();
-  set_load(factor + difference);
+  rod_.set_load(factor + difference);
   const auto over = [difference](const auto& step, double unit) { return (unit / difference * step).eval(); };
   tangent.back().force_N.setZero();
   tangent.back().moment_Nmm.setZero();
@@ -310,8 +315,7 @@ void Shooting<D>::set_load_tangent(double difference, std::vector<Fields<D, 1>>&
     const SegmentEquations missed = equations(0, false);
     tangent[0].turn = over(-slope_.inverse() * missed.residual.template head<rotations>(), 1);
   } else {
-    bool small;
-    evaluate_system(true, small);
+    for (std::size_t k = 0; k < segments_.size(); ++k) set_right(k, equations(k, false));
     system_.substitute();
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       const auto step = system_.right().tail(system_.size() - static_cast<Eigen::Index>(unknowns * k));
@@ -321,7 +325,7 @@ void Shooting<D>::set_load_tangent(double difference, std::vector<Fields<D, 1>>&
       tangent[k].moment_Nmm = over(step.template segment<rotations>(rotations + D), moment_unit());
     }
   }
-  set_load(factor);
+  rod_.set_load(factor);
 }
 
 template <int D>

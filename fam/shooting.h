@@ -208,6 +208,7 @@ class Shooting {
   // Of the state that a march of segment k arrives with.
   void set_residual(std::size_t k, const Node& arrived, SegmentEquations& equations) const;
   void assemble(int k, const SegmentEquations& equations);
+  void set_right(std::size_t k, const SegmentEquations& equations);
   // The residuals of all segments and, unless the factors are to be kept, their derivatives, factorised. False: not
   // finite, or singular.
   bool evaluate_system(bool keep_factors, bool& mismatches_are_small);

@@ -76,7 +76,17 @@ TEST(SurvivorsFam, CouplesOffTheCentreline) {
   two.sections.push_back({29.15, scene::Stiffness{500, {826.2, 245.2}, {}, {}, 0}});
   press(two, 44.54, {-9.131, 27.82, 0}, 9.482);
   press(two, 30.03, {-10.09, 4.999, 0}, 7.832);
-  for (const Scene& rod : {one, two}) {
+  Scene three = uniform_rod(30.68, {500, {546.3, 350.3}, {}, {}, 0}, {});
+  three.sections.push_back({32.64, scene::Stiffness{500, {807, 763.3}, {}, {}, 0}});
+  three.sections.push_back({29.53, scene::Stiffness{500, {335, 364.4}, {}, {}, 0}});
+  press(three, 92.85, {12.61, 6.771, 0}, 3.655);
+  press(three, 40.747, {-15.35, -17.57, 0}, 9.172);
+  Scene four = uniform_rod(27.65, {500, {255.2, 885.1}, {}, {}, 0}, {});
+  four.sections.push_back({34.07, scene::Stiffness{500, {800.1, 856.5}, {}, {}, 0}});
+  four.sections.push_back({10.98, scene::Stiffness{500, {468.9, 440}, {}, {}, 0}});
+  press(four, 72.7, {-12.14, 13.72, 0}, 9.914);
+  press(four, 29.669, {16.61, -9.746, 0}, 8.987);
+  for (const Scene& rod : {one, two, three, four}) {
     const double tolerance_mm = 1e-4 * scene::length_mm(rod);
     const Vector3d exact_mm = tip(by_exact(rod));
     EXPECT_LT((tip(by_fam(rod, tolerance_mm)) - exact_mm).norm(), tolerance_mm);
