@@ -104,6 +104,18 @@ TEST(SurvivorsFam, NewtonThatDoesNotContract) {
   EXPECT_GT((tip(by_fam(support::stiffer(rod), tolerance_mm)) - exact_mm).norm(), 3 * tolerance_mm);
 }
 
+// Two of 10 000 rods that buckle that a step leads to another branch, where the determinant has the other sign, but for
+// that sign: 0.39 L and 0.02 L off.
+TEST(SurvivorsFam, TheDeterminantsSign) {
+  for (const std::uint64_t seed : {101'647, 101'703}) {
+    const Scene rod = studies::random_scene(seed);
+    const double tolerance_mm = 1e-3 * scene::length_mm(rod);
+    const Vector3d exact_mm = tip(by_exact(rod));
+    EXPECT_LT((tip(by_fam(rod, tolerance_mm)) - exact_mm).norm(), tolerance_mm) << seed;
+    EXPECT_GT((tip(by_fam(support::stiffer(rod), tolerance_mm)) - exact_mm).norm(), 3 * tolerance_mm) << seed;
+  }
+}
+
 // Of 630 000 random scenes the three whose answers were wrong, the first two silently: more arcs led a coil to another
 // equilibrium, 0.03 L off, and a strip to the unstable one between its two stable ones, where fewer arcs were still
 // below the critical load; 2 and 4 arcs of a strip within a thousandth of it were alike by chance.
