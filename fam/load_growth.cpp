@@ -29,11 +29,11 @@ constexpr double smallest_load_step = 1e-12;  // over the load reached: a column
 constexpr double smallest_bifurcation_step = 1e-5;  // of the load; chosen, not measured
 constexpr double load_step_tolerance = 1e-6;        // of Newton on the way to the full load, where the last is tighter
 constexpr double limit_point_determinant = 1e-2;    // of that at the start of the way; chosen, not measured
-constexpr double tangent_difference = 1e-3;         // of loads, over the first step; chosen, not measured
+constexpr double tangent_difference = 1e-3;         // of loads, over the step; chosen, not measured
 // In the plane, of the largest turn of a step: what the mean of the tangents may miss of it. Of 1189 rods under strong
 // couples 10 end elsewhere without a limit, with 0.2 two, with 0.1 none, nor of 2785 drawn afterwards, of which 25 do
-// without. All of these are planar. In space 0.1 lets random scene 99989, a coil, end in work_limit. Below the least it
-// is what load_step_tolerance makes of a tangent.
+// without. All of these are planar; with 1e-6 N across, and so in space, none ends elsewhere. In space 0.1 lets random
+// scene 99989, a coil, end in work_limit. Below the least it is what load_step_tolerance makes of a tangent.
 constexpr double most_missed_share = 0.1, least_missed_rad = load_step_tolerance / tangent_difference;
 constexpr int most_passes = 100;  // of the rod's arcs, within the work limit; chosen, not measured
 
