@@ -7,6 +7,7 @@
 #include "fam/arc_step.h"
 #include "fam/law.h"
 #include "fam/published_arc.h"
+#include "fam/vector_unit.h"
 
 namespace fam {
 
@@ -79,15 +80,26 @@ BasicMotion<T, D> law_step(Law law, Section&& section, const ArcForces<T, D>* fo
   });
 }
 
+// The same in an elastic section in space. Compiled apart for AVX2 (elastic_step.cpp).
+template <bool with_shear>
+RigidMotion elastic_step(Law law, const ArcConstants& arc, const ArcForces<double, 3>* forces, SectionWrench& wrench,
+                         Screw& screw, VectorUnit unit = widest_unit());
+
 // The same in a section with tendons; `collapsed` is set where one has no length. Compiled apart (tendon_step.cpp):
 // beside the elastic laws it would keep the compiler from inlining those, at 1.1 to 1.4 times the time of a solve.
 template <bool with_shear, class T, int D>
 BasicMotion<T, D> tendon_step(Law law, const BasicArcConstants<D>& arc, const ArcForces<T, D>* forces,
-                              BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw, bool& collapsed);
+                              BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw, bool& collapsed,
+                              VectorUnit unit = widest_unit());
 
-// The series of an arc (fam/arc_series.h) in any section; where that does not give way its translation is (h, 0, 0), 0 ...
+// The series of an arc (fam/arc_series.h) in an elastic section in space, by elastic_step.cpp.
+template <bool with_shear, std::size_t terms>
+RodSeries<double, 3, terms> elastic_series(const ArcConstants& arc, const ArcForces<double, 3>* forces,
+                                           const SectionWrench& wrench, VectorUnit unit = widest_unit());
+
+// The series of an arc in any section; where that does not give way its translation is (h, 0, 0), 0 ...
 template <bool with_shear, std::size_t terms, int D>
 RodSeries<double, D, terms> series_of(const BasicArcConstants<D>& arc, const ArcForces<double, D>* forces,
-                                      const BasicWrench<double, D>& wrench);
+                                      const BasicWrench<double, D>& wrench, VectorUnit unit = widest_unit());
 
 }  // namespace fam

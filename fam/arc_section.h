@@ -69,19 +69,18 @@ class ElasticSection {
   explicit ElasticSection(const BasicArcConstants<D>& arc) : arc_(arc) {}
 
   BasicScrew<T, D> strain(const BasicWrench<T, D>& wrench) const {
-    BasicScrew<T, D> screw{arc_.rest_rotation.template cast<T>() +
-                               arc_.angular_compliance.template cast<T>().cwiseProduct(wrench.moment_Nmm),
-                           arc_.rest_translation_mm.template cast<T>()};
+    BasicScrew<T, D> screw{as<T>(arc_.rest_rotation) + as<T>(arc_.angular_compliance).cwiseProduct(wrench.moment_Nmm),
+                           as<T>(arc_.rest_translation_mm)};
     if constexpr (with_shear) {
-      screw.translation_mm += arc_.linear_compliance.template cast<T>().cwiseProduct(wrench.force_N);
+      screw.translation_mm += as<T>(arc_.linear_compliance).cwiseProduct(wrench.force_N);
     }
     return screw;
   }
   void begin_series(const BasicScrew<T, D>&) const {}
   void next(std::size_t, const Angular<T, D>& moment_Nmm, const Vector<T, D>& force_N, Angular<T, D>& rotation,
             Vector<T, D>& translation_mm) const {
-    rotation = arc_.angular_compliance.template cast<T>().cwiseProduct(moment_Nmm);
-    if constexpr (with_shear) translation_mm = arc_.linear_compliance.template cast<T>().cwiseProduct(force_N);
+    rotation = as<T>(arc_.angular_compliance).cwiseProduct(moment_Nmm);
+    if constexpr (with_shear) translation_mm = as<T>(arc_.linear_compliance).cwiseProduct(force_N);
   }
   bool collapsed() const { return false; }
 

@@ -30,21 +30,25 @@ RodSeries<T, D, terms> rod_series(Section&& section, const ArcForces<T, D>* forc
   section.begin_series(first);
 #pragma GCC unroll 8
   for (std::size_t k = 0; k + 1 < terms; ++k) {
-    Vector<T, D> force = cross(s.rotation[0], s.force_N[k]);
-    Angular<T, D> moment = cross(s.rotation[0], s.moment_Nmm[k]) + arm_cross(s.translation_mm[0], s.force_N[k]);
+    auto force_sum = cross(s.rotation[0], s.force_N[k]);
+    auto moment_sum = cross(s.rotation[0], s.moment_Nmm[k]);
+    moment_sum += arm_cross(s.translation_mm[0], s.force_N[k]);
 #pragma GCC unroll 8
     for (std::size_t j = 1; j <= k; ++j) {
-      force += cross(s.rotation[j], s.force_N[k - j]);
-      moment += cross(s.rotation[j], s.moment_Nmm[k - j]);
-      if constexpr (std::remove_cvref_t<Section>::gives_way) moment += arm_cross(s.translation_mm[j], s.force_N[k - j]);
+      force_sum += cross(s.rotation[j], s.force_N[k - j]);
+      moment_sum += cross(s.rotation[j], s.moment_Nmm[k - j]);
+      if constexpr (std::remove_cvref_t<Section>::gives_way)
+        moment_sum += arm_cross(s.translation_mm[j], s.force_N[k - j]);
     }
+    Vector<T, D> force = force_sum;
+    const Angular<T, D> moment = moment_sum;
     const T share = T(1.0 / static_cast<double>(k + 1));
     if (forces) {
       force += fixed_N[k];
       if (k == 0) force += forces->follower_S_N;
-      Vector<T, D> fixed = cross(s.rotation[0], fixed_N[k]);
+      auto fixed = cross(s.rotation[0], fixed_N[k]);
       for (std::size_t j = 1; j <= k; ++j) fixed += cross(s.rotation[j], fixed_N[k - j]);
-      fixed_N[k + 1] = share * fixed;
+      fixed_N[k + 1] = share * Vector<T, D>(fixed);
     }
     s.force_N[k + 1] = share * force;
     s.moment_Nmm[k + 1] = share * moment;

@@ -136,6 +136,8 @@ void LoadedRod<D>::march_with(ArcRange arcs, SectionState<D, T>& state, After&& 
       if constexpr (requires { after_arc.meet(arc, state); }) after_arc.meet(arc, state);
       if (!span.constants.is_elastic()) {
         motion = tendon_step<with_shear>(law_, span.constants, distributed, state.wrench, screw, tendon_collapsed_);
+      } else if constexpr (D == 3 && std::is_same_v<T, double>) {
+        motion = elastic_step<with_shear>(law_, span.constants, distributed, state.wrench, screw);
       } else if constexpr (sizeof(T) <= sizeof(Dual<1>)) {
         motion = flat_step(law_, section, distributed, state.wrench, screw);
       } else {

@@ -7,10 +7,22 @@
 #pragma once
 
 #include "fam/arc_section.h"
+#include "fam/wide.h"
 
 #include <Eigen/LU>
 
 namespace fam {
+
+// Columns of the inverse of the matrix with these rows.
+template <class T, int D, std::size_t count>
+std::array<Eigen::Matrix<T, D, 1>, count> inverse_of_rows(const std::array<Eigen::Matrix<T, D, 1>, count>& rows) {
+  Eigen::Matrix<T, D, D> matrix;
+  for (int i = 0; i < D; ++i) matrix.row(i) = rows[static_cast<std::size_t>(i)].transpose();
+  const Eigen::Matrix<T, D, D> inverse = matrix.inverse();
+  std::array<Eigen::Matrix<T, D, 1>, count> columns;
+  for (int i = 0; i < D; ++i) columns[static_cast<std::size_t>(i)] = inverse.col(i);
+  return columns;
+}
 
 // The arc laws' `Section`, as TendonSection, which is asked where Newton's method alone does not find the strain.
 template <bool with_shear, class T, int D>
@@ -19,31 +31,35 @@ class OneTendonSection {
   static constexpr bool gives_way = with_shear;
 
   explicit OneTendonSection(const BasicArcConstants<D>& arc) : arc_(arc) {
+    const Vector<Value, D> arm = as<Value>(tendon().arm_mm);
     for (int axis = 0; axis < D; ++axis) {
-      const Vector<double, D> pull_N = tendon().tension_N * Vector<double, D>::Unit(axis);
-      const Angular<double, D> turn = arc_.angular_compliance.cwiseProduct(arm_cross(tendon().arm_mm, pull_N));
-      give_.col(axis) = cross(turn, tendon().arm_mm);
-      if constexpr (with_shear) give_(axis, axis) += arc_.linear_compliance[axis] * pull_N[axis];
+      const Vector<Value, D> pull_N = unit(axis) * Value(tendon().tension_N);
+      const BasicScrew<Value, D> by = give<Value>(arm_cross(arm, pull_N), pull_N);
+      give_[static_cast<std::size_t>(axis)] = by.translation_mm + cross(by.rotation, arm);
     }
   }
 
   bool collapsed() const { return collapsed_; }
 
-  [[gnu::noinline]] BasicScrew<T, D> strain(const BasicWrench<T, D>& wrench) {
-    BasicScrew<T, D> loose = give(wrench.moment_Nmm, wrench.force_N);
-    loose.rotation += arc_.rest_rotation.template cast<T>();
-    loose.translation_mm += arc_.rest_translation_mm.template cast<T>();
+  BasicScrew<T, D> strain(const BasicWrench<T, D>& wrench) {
+    BasicScrew<T, D> loose = give<T>(wrench.moment_Nmm, wrench.force_N);
+    loose.rotation += as<T>(arc_.rest_rotation);
+    loose.translation_mm += as<T>(arc_.rest_translation_mm);
     const Vector<T, D> loose_t = tangent(loose);
-    Vector<double, D> found;
-    for (int i = 0; i < D; ++i) found[i] = value_of(loose_t[i]);
-    Square<double> inverse;
-    if (!solve(found, inverse)) return robust_strain(wrench);
-    Vector<T, D> t = found.template cast<T>();
-    if constexpr (!std::is_same_v<T, double>) {  // one more step in T, whose derivatives are those of the solution
+    Square<Value> inverse;
+    if constexpr (has_slopes) {  // one more step in T, whose derivatives are those of the solution
+      Vector<double, D> found;
+      for (int i = 0; i < D; ++i) found[i] = value_of(loose_t[i]);
+      if (!solve(found, inverse)) return robust_strain(wrench);
+      Vector<T, D> t = as<T>(found);
       const Vector<T, D> miss = t + product<T>(give_, direction_of(t)) - loose_t;
       t -= product<T>(inverse, miss);
+      return less_pull(loose, direction_of(t));
+    } else {
+      Vector<T, D> t = loose_t;
+      if (!solve(t, inverse)) return robust_strain(wrench);
+      return less_pull(loose, direction_of(t));
     }
-    return less_pull(loose, direction_of(t));
   }
 
   void begin_series(const BasicScrew<T, D>& first) {
@@ -52,7 +68,7 @@ class OneTendonSection {
     length_[0] = sqrt(t_[0].dot(t_[0]));
     inverse_length_ = T(1) / length_[0];
     direction_[0] = t_[0] * inverse_length_;
-    inverse_ = derivative<T>(direction_[0], inverse_length_).inverse();
+    inverse_ = inverse_derivative<T>(direction_[0], inverse_length_);
   }
 
   void next(std::size_t k, const Angular<T, D>& moment_Nmm, const Vector<T, D>& force_N, Angular<T, D>& rotation,
@@ -61,14 +77,14 @@ class OneTendonSection {
     T length(0);
     Vector<T, D> known = Vector<T, D>::Zero();
     for (std::size_t j = 1; j < k; ++j) {
-      length += t_[j].dot(t_[k - j]) - length_[j] * length_[k - j];
+      length = length + (t_[j].dot(t_[k - j]) - length_[j] * length_[k - j]);
       known -= direction_[k - j] * length_[j];
     }
-    length *= T(0.5) * inverse_length_;
+    length = T(0.5) * inverse_length_ * length;
     known = (known - direction_[0] * length) * inverse_length_;
 
-    const BasicScrew<T, D> loose = give(moment_Nmm, force_N);
-    t_[k] = inverse_ * (tangent(loose) - product<T>(give_, known));
+    const BasicScrew<T, D> loose = give<T>(moment_Nmm, force_N);
+    t_[k] = product<T>(inverse_, Vector<T, D>(tangent(loose) - product<T>(give_, known)));
     const T along = direction_[0].dot(t_[k]);
     length_[k] = length + along;
     direction_[k] = known + (t_[k] - direction_[0] * along) * inverse_length_;
@@ -81,28 +97,47 @@ class OneTendonSection {
   static constexpr std::size_t terms = 8;
   static constexpr int most_steps = 8;  // of Newton's method, two to four suffice where the tendon is nearly straight
   static constexpr double largest_step = 0.5, least_length = 0.1;  // over |t|, and over h; chosen, not measured
+  static constexpr bool has_slopes = !std::is_convertible_v<T, double>;
+  using Value = std::conditional_t<has_slopes, double, T>;
   template <class Number>
-  using Square = Eigen::Matrix<Number, D, D>;
+  using Square = std::array<Vector<Number, D>, D>;  // by columns
 
   const BasicTendon<D>& tendon() const { return arc_.tendons.front(); }
-  BasicScrew<T, D> robust_strain(const BasicWrench<T, D>& wrench) {
-    TendonSection<with_shear, T, D> section(arc_);
-    const BasicScrew<T, D> strain = section.strain(wrench);
-    collapsed_ = collapsed_ || section.collapsed();
-    return strain;
+  static Vector<Value, D> unit(int axis) { return as<Value>(Vector<double, D>(Vector<double, D>::Unit(axis))); }
+  template <class Number, class Column>
+  static Vector<Number, D> numbers(const Column& values) {
+    if constexpr (std::is_same_v<Column, Vector<Number, D>>) return values;
+    else return as<Number>(values);
   }
-  template <class Number>
-  static Vector<Number, D> product(const Square<double>& a, const Vector<Number, D>& x) {
-    return a.template cast<Number>() * x;
+  template <class Number, class Column>
+  static Vector<Number, D> product(const std::array<Column, D>& a, const Vector<Number, D>& x) {
+    Vector<Number, D> sum = numbers<Number>(a[0]) * x[0];
+    for (int i = 1; i < D; ++i) sum += numbers<Number>(a[static_cast<std::size_t>(i)]) * x[i];
+    return sum;
+  }
+  BasicScrew<T, D> robust_strain(const BasicWrench<T, D>& wrench) {
+    if constexpr (std::is_same_v<T, Wide>) {
+      TendonSection<with_shear, double, D> section(arc_);
+      const BasicScrew<double, D> strain = section.strain(narrow(wrench));
+      collapsed_ = collapsed_ || section.collapsed();
+      return wide(strain);
+    } else {
+      TendonSection<with_shear, T, D> section(arc_);
+      const BasicScrew<T, D> strain = section.strain(wrench);
+      collapsed_ = collapsed_ || section.collapsed();
+      return strain;
+    }
   }
   // C W; without shear that of the turn alone.
-  BasicScrew<T, D> give(const Angular<T, D>& moment_Nmm, const Vector<T, D>& force_N) const {
-    BasicScrew<T, D> result{arc_.angular_compliance.template cast<T>().cwiseProduct(moment_Nmm), Vector<T, D>::Zero()};
-    if constexpr (with_shear) result.translation_mm = arc_.linear_compliance.template cast<T>().cwiseProduct(force_N);
+  template <class Number>
+  BasicScrew<Number, D> give(const Angular<Number, D>& moment_Nmm, const Vector<Number, D>& force_N) const {
+    BasicScrew<Number, D> result{as<Number>(arc_.angular_compliance).cwiseProduct(moment_Nmm),
+                                 Vector<Number, D>::Zero()};
+    if constexpr (with_shear) result.translation_mm = as<Number>(arc_.linear_compliance).cwiseProduct(force_N);
     return result;
   }
   Vector<T, D> tangent(const BasicScrew<T, D>& strain) const {
-    return strain.translation_mm + cross(strain.rotation, Vector<T, D>(tendon().arm_mm.template cast<T>()));
+    return strain.translation_mm + cross(strain.rotation, as<T>(tendon().arm_mm));
   }
   static Vector<T, D> direction_of(const Vector<T, D>& t) {
     using std::sqrt;
@@ -111,35 +146,34 @@ class OneTendonSection {
   // The strain less C T B^T d.
   BasicScrew<T, D> less_pull(const BasicScrew<T, D>& strain, const Vector<T, D>& d) const {
     const Vector<T, D> force_N = d * T(tendon().tension_N);
-    const BasicScrew<T, D> by = give(arm_cross(Vector<T, D>(tendon().arm_mm.template cast<T>()), force_N), force_N);
+    const BasicScrew<T, D> by = give<T>(arm_cross(as<T>(tendon().arm_mm), force_N), force_N);
     return {strain.rotation - by.rotation, strain.translation_mm - by.translation_mm};
   }
-  // 1 + G (1 - d d^T) / |t|.
+  // Of 1 + G (1 - d d^T) / |t|; G is symmetric.
   template <class Number>
-  Square<Number> derivative(const Vector<Number, D>& d, const Number& inverse_length) const {
+  Square<Number> inverse_derivative(const Vector<Number, D>& d, const Number& inverse_length) const {
     const Vector<Number, D> along = product<Number>(give_, d) * inverse_length;
-    Square<Number> result;
-    for (int row = 0; row < D; ++row) {
-      for (int column = 0; column < D; ++column) {
-        result(row, column) = Number(give_(row, column)) * inverse_length - along[row] * d[column];
-      }
-      result(row, row) += Number(1);
+    Square<Number> rows;
+    for (int i = 0; i < D; ++i) {
+      const auto row = static_cast<std::size_t>(i);
+      rows[row] = as<Number>(Vector<double, D>(Vector<double, D>::Unit(i))) +
+                  numbers<Number>(give_[row]) * inverse_length - d * Number(along[i]);
     }
-    return result;
+    return inverse_of_rows(rows);
   }
 
   // From B (X0 + C W) to t, and the inverse of the derivative of one step before. Newton's method from the straight
   // tendon's; false where it does not converge at once.
-  bool solve(Vector<double, D>& t, Square<double>& inverse) const {
-    const Vector<double, D> loose = t;
-    t -= give_.col(0);
+  bool solve(Vector<Value, D>& t, Square<Value>& inverse) const {
+    const Vector<Value, D> loose = t;
+    t -= give_[0];
     double last = 1;
     for (int step = 0; step < most_steps; ++step) {
       const double length = t.norm();
       if (!(length > least_length * arc_.rest_translation_mm[0])) return false;
-      const Vector<double, D> d = t / length;
-      inverse = derivative<double>(d, 1 / length).inverse();
-      const Vector<double, D> newton = inverse * (t + give_ * d - loose);
+      const Vector<Value, D> d = t * (1 / length);
+      inverse = inverse_derivative<Value>(d, 1 / length);
+      const Vector<Value, D> newton = product<Value>(inverse, Vector<Value, D>(t + product<Value>(give_, d) - loose));
       t -= newton;
       const double size = newton.norm() / length;
       if (!(size < largest_step)) return false;
@@ -150,8 +184,8 @@ class OneTendonSection {
   }
 
   const BasicArcConstants<D>& arc_;
-  Square<double> give_;  // G
-  Square<T> inverse_;    // of the derivative where the series begins
+  Square<Value> give_;  // G
+  Square<T> inverse_;   // of the derivative where the series begins
   std::array<Vector<T, D>, terms> t_, direction_;
   std::array<T, terms> length_;
   T inverse_length_;  // of the first t

@@ -27,12 +27,22 @@ using Eigen::Vector3d;
 template <class T>
 using Vector3 = Eigen::Matrix<T, 3, 1>;
 template <class T, int D>
-using Vector = Eigen::Matrix<T, D, 1>;
+struct VectorOf {  // fam/wide.h has another
+  using Type = Eigen::Matrix<T, D, 1>;
+};
+template <class T, int D>
+using Vector = typename VectorOf<T, D>::Type;
 constexpr int rotations_of(int dimension) {
   return dimension == 3 ? 3 : 1;
 }
 template <class T, int D>
-using Angular = Eigen::Matrix<T, rotations_of(D), 1>;
+using Angular = Vector<T, rotations_of(D)>;
+
+// A vector's numbers as T.
+template <class T, int D>
+Vector<T, D> as(const Eigen::Matrix<double, D, 1>& v) {
+  return v.template cast<T>();
+}
 
 // Cross products: turn x vector, turn x turn (nothing in the plane), and vector x vector, a turn.
 template <class T>
@@ -40,11 +50,11 @@ Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
   return a.cross(b);
 }
 template <class T>
-Vector<T, 2> cross(const Angular<T, 2>& a, const Vector<T, 2>& b) {
+Vector<T, 2> cross(const Eigen::Matrix<T, 1, 1>& a, const Eigen::Matrix<T, 2, 1>& b) {
   return {-a[0] * b[1], a[0] * b[0]};
 }
 template <class T>
-Angular<T, 2> cross(const Angular<T, 2>&, const Angular<T, 2>&) {
+Angular<T, 2> cross(const Eigen::Matrix<T, 1, 1>&, const Eigen::Matrix<T, 1, 1>&) {
   return Angular<T, 2>::Zero();
 }
 template <class T>
@@ -52,7 +62,7 @@ Vector3<T> arm_cross(const Vector3<T>& a, const Vector3<T>& b) {
   return a.cross(b);
 }
 template <class T>
-Angular<T, 2> arm_cross(const Vector<T, 2>& a, const Vector<T, 2>& b) {
+Angular<T, 2> arm_cross(const Eigen::Matrix<T, 2, 1>& a, const Eigen::Matrix<T, 2, 1>& b) {
   return Angular<T, 2>(a[0] * b[1] - a[1] * b[0]);
 }
 

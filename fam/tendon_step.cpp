@@ -1,13 +1,21 @@
 // The arc laws in sections with tendons, for all numbers that are marched.
 #include "fam/arc_law.h"
 #include "fam/one_tendon.h"
+#include "fam/wide_step.h"
 
 namespace fam {
 namespace {
 
+// A section whose Newton's method is compiled once, not wherever a law asks for a strain.
+template <class Section>
+struct StrainApart : Section {
+  using Section::Section;
+  [[gnu::noinline]] auto strain(const auto& wrench) { return Section::strain(wrench); }
+};
+
 // As flat_step; sections with several tendons would take the compiler minutes.
 template <bool with_shear, class T, int D>
-FAM_FLATTEN [[gnu::noinline]] BasicMotion<T, D> step(Law law, OneTendonSection<with_shear, T, D>& section,
+FAM_FLATTEN [[gnu::noinline]] BasicMotion<T, D> step(Law law, StrainApart<OneTendonSection<with_shear, T, D>>& section,
                                                      const ArcForces<T, D>* forces, BasicWrench<T, D>& wrench,
                                                      BasicScrew<T, D>& screw) {
   return law_step(law, section, forces, wrench, screw);
@@ -22,7 +30,7 @@ BasicMotion<T, D> step(Law law, TendonSection<with_shear, T, D>& section, const 
 template <bool with_shear, class T, int D, class Visit>
 auto visit_section(const BasicArcConstants<D>& arc, Visit&& visit) {
   if (arc.tendons.size() == 1) {
-    OneTendonSection<with_shear, T, D> section(arc);
+    StrainApart<OneTendonSection<with_shear, T, D>> section(arc);
     return visit(section);
   }
   TendonSection<with_shear, T, D> section(arc);
@@ -33,20 +41,42 @@ auto visit_section(const BasicArcConstants<D>& arc, Visit&& visit) {
 
 template <bool with_shear, class T, int D>
 BasicMotion<T, D> tendon_step(Law law, const BasicArcConstants<D>& arc, const ArcForces<T, D>* forces,
-                              BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw, bool& collapsed) {
-  return visit_section<with_shear, T>(arc, [&](auto& section) {
-    const BasicMotion<T, D> motion = step(law, section, forces, wrench, screw);
+                              BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw, bool& collapsed,
+                              [[maybe_unused]] VectorUnit unit) {
+  const auto collapsing = [&collapsed](const BasicMotion<T, D>& motion, const auto& section) {
     collapsed = collapsed || section.collapsed();
     return motion;
-  });
+  };
+#ifdef FAM_HAS_AVX2_UNIT
+  if constexpr (D == 3) {
+    if (unit == VectorUnit::avx2 && law == Law::sixth_order && arc.tendons.size() == 1) {
+      return call_by_avx2([&] {
+        OneTendonSection<with_shear, Wide, 3> section(arc);
+        return collapsing(wide_step(section, forces, wrench, screw), section);
+      });
+    }
+  }
+#endif
+  return visit_section<with_shear, T>(
+      arc, [&](auto& section) { return collapsing(step(law, section, forces, wrench, screw), section); });
 }
 
 template <bool with_shear, std::size_t terms, int D>
 RodSeries<double, D, terms> series_of(const BasicArcConstants<D>& arc, const ArcForces<double, D>* forces,
-                                      const BasicWrench<double, D>& wrench) {
+                                      const BasicWrench<double, D>& wrench, [[maybe_unused]] VectorUnit unit) {
   RodSeries<double, D, terms> series;
   if (arc.is_elastic()) {
-    series = rod_series<terms>(ElasticSection<with_shear, double, D>(arc), forces, wrench);
+    if constexpr (D == 3) series = elastic_series<with_shear, terms>(arc, forces, wrench, unit);
+    else series = rod_series<terms>(ElasticSection<with_shear, double, D>(arc), forces, wrench);
+#ifdef FAM_HAS_AVX2_UNIT
+  } else if (D == 3 && unit == VectorUnit::avx2 && arc.tendons.size() == 1) {
+    if constexpr (D == 3) {
+      series = call_by_avx2([&] {
+        OneTendonSection<with_shear, Wide, 3> section(arc);
+        return wide_series<terms>(section, forces, wrench);
+      });
+    }
+#endif
   } else {
     series = visit_section<with_shear, double>(
         arc, [&](auto& section) { return rod_series<terms>(section, forces, wrench); });
@@ -65,7 +95,7 @@ BasicScrew<double, D> strain_under(const BasicArcConstants<D>& arc, const BasicW
 
 #define FAM_TENDON_STEP(with_shear, T, D)                                                                            \
   template BasicMotion<T, D> tendon_step<with_shear, T, D>(Law, const BasicArcConstants<D>&, const ArcForces<T, D>*, \
-                                                           BasicWrench<T, D>&, BasicScrew<T, D>&, bool&);
+                                                           BasicWrench<T, D>&, BasicScrew<T, D>&, bool&, VectorUnit);
 FAM_TENDON_STEP(true, double, 2)
 FAM_TENDON_STEP(true, Dual<1>, 2)
 FAM_TENDON_STEP(true, Dual<4>, 2)
@@ -78,7 +108,7 @@ FAM_TENDON_STEP(false, double, 3)
 
 #define FAM_SERIES(with_shear, terms, D)                                \
   template RodSeries<double, D, terms> series_of<with_shear, terms, D>( \
-      const BasicArcConstants<D>&, const ArcForces<double, D>*, const BasicWrench<double, D>&);
+      const BasicArcConstants<D>&, const ArcForces<double, D>*, const BasicWrench<double, D>&, VectorUnit);
 FAM_SERIES(true, 6, 3)
 FAM_SERIES(false, 6, 3)
 FAM_SERIES(true, 7, 3)
