@@ -62,7 +62,7 @@ class BasicBoundaryValue {
   }
   // Whether the loads are too small for a second equilibrium, so that the one found is stable, or the rod was seen to
   // stay stable as they grew.
-  bool is_surely_stable() const { return shooting_.one_equilibrium() || growth_.stayed_stable(); }
+  bool is_surely_stable() const { return shooting_.is_surely_stable() || growth_.stayed_stable(); }
 
  private:
   // Sets why_. Their squares are summed.

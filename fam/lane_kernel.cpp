@@ -98,14 +98,16 @@ class Rods {
   // Arcs short enough for the law's series, and of boundary values one equilibrium (fam/shooting.h).
   Mask is_within_bounds() const {
     P force(0), moment(0), convexity(0), force_beyond(0), by_moments(0), turn(0), strain(0), longest(0);
+    P arms(0), arms_turn(0);
     for (std::size_t i = rods_.spans.size(); i-- > 0;) {
       const LaneSpan& span = rods_.spans[i];
       const P* n = numbers(i);
       force += norm(n + at::follower_force) + norm(n + at::fixed_force);
       moment += norm(n + at::follower_moment) + norm(n + at::fixed_moment);
-      P arms(0);
-      for (int k = 0; k < 9; ++k) arms += n[at::fixed_force_arms + k] * n[at::fixed_force_arms + k];
-      moment += sqrt(arms);
+      P squares(0);
+      for (int k = 0; k < 9; ++k) squares += n[at::fixed_force_arms + k] * n[at::fixed_force_arms + k];
+      moment += sqrt(squares);
+      arms += sqrt(squares);
       const P on_arc = norm(n + at::distributed_follower) + norm(n + at::distributed_fixed);
       const P h(span.arc_length_mm), arcs(span.arcs);
       for (int arc = 0; arc < (span.distributed ? span.arcs : 1); ++arc) {
@@ -118,14 +120,15 @@ class Rods {
       }
       if (D == 3) by_moments += arcs * h * moment * P(span.spin_rate_per_Nmm2);
       turn += arcs * h * moment * P(1 / span.least_stiffness_Nmm2) + P(span.rest_turn_rad);
+      arms_turn += arcs * h * arms * P(1 / span.buckling_stiffness_Nmm2);
       strain = larger(strain, force * P(span.linear_compliance_per_N));
       longest = larger(longest, h * h * force * P(1 / span.least_stiffness_Nmm2));
     }
     Mask within = longest <= P(rods_.longest_load_length * rods_.longest_load_length);
     if (rods_.march) return within;
     const P unique_length = sqrt(sqrt(P(6) * convexity)) + by_moments;
-    within &= unique_length * unique_length <= P(unique_length_squared);
-    within &= turn <= P(unique_turn_rad);
+    within &= unique_length * unique_length <= P(unique_length_squared) * (P(1) - arms_turn);
+    if (D == 3) within &= turn <= P(unique_turn_rad);
     if (with_shear) within &= strain <= P(unique_strain);
     return within;
   }

@@ -235,7 +235,7 @@ scene::Status LoadGrowth<D>::run(Shooting<D>& shooting) {
 template <int D>
 scene::Status LoadGrowth<D>::solve_known_moments(Shooting<D>& shooting) {
   load_factor_ = 1;
-  const bool solved = shooting.start_from_clamp() && shooting.solve_from_here();
+  const bool solved = shooting.solve_known_moments();
   return end_.status = solved ? scene::Status::converged : scene::Status::arc_not_converged;
 }
 

@@ -52,11 +52,6 @@ scene::Wrench straight_tendons(const Span& span) {
   return wrench;
 }
 
-double load_moment_Nmm(const Span& span) {
-  return span.follower_load_S.moment_Nmm.norm() + span.fixed_load_B.moment_Nmm.norm() +
-         span.fixed_force_arms_BS_Nmm.norm();
-}
-
 double spin_rate_per_Nmm2(const Span& span) {
   Eigen::Vector3d c(span.stiffness.torsion_Nmm2, span.stiffness.bending_Nmm2[0], span.stiffness.bending_Nmm2[1]);
   c = c.cwiseInverse().eval();
@@ -88,20 +83,26 @@ double largest_load_length(std::span<const Span> spans, std::span<const int> arc
 }
 
 double size_of_change(std::span<const Span> from, std::span<const Span> to) {
-  double force_N = 0, moment_Nmm = 0, load_length = 0, turn_rad = 0;
+  LoadSum force_N(Sum::vectors), moment_Nmm(Sum::vectors);
+  double load_length = 0, turn_rad = 0;
   for (std::size_t i = to.size(); i-- > 0;) {
     const Span &a = from[i], &b = to[i];
     const double stiffness_Nmm2 = least_stiffness_Nmm2(b), length_mm = b.length_mm();
-    force_N += (b.follower_load_S.force_N - a.follower_load_S.force_N).norm() +
-               (b.fixed_load_B.force_N - a.fixed_load_B.force_N).norm() +
-               length_mm * ((b.follower_force_S_N_per_mm - a.follower_force_S_N_per_mm).norm() +
-                            (b.fixed_force_B_N_per_mm - a.fixed_force_B_N_per_mm).norm());
-    moment_Nmm += (b.follower_load_S.moment_Nmm - a.follower_load_S.moment_Nmm).norm() +
-                  (b.fixed_load_B.moment_Nmm - a.fixed_load_B.moment_Nmm).norm() +
-                  (b.fixed_force_arms_BS_Nmm - a.fixed_force_arms_BS_Nmm).norm();
+    const auto add = [](LoadSum& sum, const Vector3d& fixed, const Vector3d& following) {
+      sum.add_fixed(fixed);
+      sum.add_following(following.norm());
+    };
+    add(force_N, b.fixed_load_B.force_N - a.fixed_load_B.force_N,
+        b.follower_load_S.force_N - a.follower_load_S.force_N);
+    const double at_end_N = force_N.size();
+    add(force_N, length_mm * (b.fixed_force_B_N_per_mm - a.fixed_force_B_N_per_mm),
+        length_mm * (b.follower_force_S_N_per_mm - a.follower_force_S_N_per_mm));
+    add(moment_Nmm, b.fixed_load_B.moment_Nmm - a.fixed_load_B.moment_Nmm,
+        b.follower_load_S.moment_Nmm - a.follower_load_S.moment_Nmm);
+    moment_Nmm.add_following((b.fixed_force_arms_BS_Nmm - a.fixed_force_arms_BS_Nmm).norm());
     const double tendons_Nmm = (straight_tendons(b).moment_Nmm - straight_tendons(a).moment_Nmm).norm();
-    load_length += length_mm * std::sqrt(force_N / stiffness_Nmm2);
-    turn_rad += length_mm * ((moment_Nmm + tendons_Nmm) / stiffness_Nmm2 +
+    load_length += length_mm * std::sqrt(std::max(at_end_N, force_N.size()) / stiffness_Nmm2);
+    turn_rad += length_mm * ((moment_Nmm.size() + tendons_Nmm) / stiffness_Nmm2 +
                              (b.rest_curvature_per_mm - a.rest_curvature_per_mm).norm());
   }
   return load_length * load_length + turn_rad;

@@ -1,7 +1,7 @@
 // What the loads can do to a rod at most, read off its spans on one walk from the tip to the clamp.
 //
 // The load length of a stretch is its length over that which the loads themselves have: int sqrt(force / EI) ds, force
-// the sum of the sizes of all beyond. A change at its tip side grows like its exponential towards the clamp. In space a
+// that of all loads beyond. A change at its tip side grows like its exponential towards the clamp. In space a
 // moment M about the axis of middle stiffness adds int M sqrt((c2 - c1)(c3 - c2)) ds, with the compliances 1/GJ,
 // 1/EI_y, 1/EI_z in order: the rate of Euler's unstable spin, at which the direction of the moment goes astray.
 //
@@ -11,12 +11,15 @@
 // second order below 1 suffices,
 //   2 int F(s) c(s)^2 int_s^L F dt ds   (F^2 L^4 / (6 EI^2) of a uniform rod under a tip force: L^2 F/EI < 2.449).
 // The unique length is the fourth root of six times that, L sqrt(F/EI) of such a rod, and the moments' part is added.
+// Forces off the centreline, F at r, cost |F| |r| theta^2 more where they act, at most |F| |r| c of that integral: as
+// much is missing from 1.
 #pragma once
 
 #include "fam/arc.h"
 
 #include "scene/span.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -36,37 +39,67 @@ double spin_rate_per_Nmm2(const scene::Span& span);
 // frame).
 scene::Wrench straight_tendons(const scene::Span& span);
 
-// Bound on the moments of the point loads at the span's end.
-double load_moment_Nmm(const scene::Span& span);
-
 // A cell of a span, one of those that the span is cut into, as the walk meets it.
 struct LoadedCell {
   std::size_t span_index;
   const scene::Span& span;
   int cell;  // of all, from the clamp
   double length_mm;
-  double force_N, moment_Nmm;  // sizes of the forces, and of the moments of point loads, on the cell and beyond
+  // Of all loads on the cell and beyond, at most: the forces, the moments of point loads, and of these those of forces
+  // off the centreline, which the shape decides.
+  double force_N, moment_Nmm, arms_Nmm;
 
   double load_length(double stiffness_Nmm2, bool by_moments) const {
     return length_mm * (std::sqrt(force_N / stiffness_Nmm2) + (by_moments ? moment_Nmm * spin_rate_per_Nmm2(span) : 0));
   }
 };
 
+// How fixed loads add up: as vectors, or, where each is the larger of several, by their sizes.
+enum class Sum { vectors, sizes };
+
+// The forces or moments on a section and beyond; following ones turn, and add up by their sizes.
+class LoadSum {
+ public:
+  explicit LoadSum(Sum sum) : sum_(sum) {}
+  void add_fixed(const Vector3d& load) {
+    if (sum_ == Sum::vectors) fixed_ += load;
+    else sizes_ += load.norm();
+  }
+  void add_following(double size) { sizes_ += size; }
+  double size() const { return sizes_ + fixed_.norm(); }
+
+ private:
+  Sum sum_;
+  Vector3d fixed_ = Vector3d::Zero();
+  double sizes_ = 0;
+};
+
 // Calls visit(cell) from the tip to the clamp; cells_per_span[i] cells of span i.
 template <class Cells, class Visit>
-void walk_from_tip(std::span<const scene::Span> spans, const Cells& cells_per_span, Visit&& visit) {
+void walk_from_tip(std::span<const scene::Span> spans, const Cells& cells_per_span, Visit&& visit,
+                   Sum sum = Sum::sizes) {
   int cell = 0;
   for (std::size_t i = 0; i < spans.size(); ++i) cell += cells_per_span[i];
-  double force_N = 0, moment_Nmm = 0;
+  LoadSum force_N(sum), moment_Nmm(sum);
+  double arms_Nmm = 0;
   for (std::size_t i = spans.size(); i-- > 0;) {
     const scene::Span& span = spans[i];
-    force_N += span.follower_load_S.force_N.norm() + span.fixed_load_B.force_N.norm();
-    moment_Nmm += load_moment_Nmm(span);
-    const double per_mm = span.follower_force_S_N_per_mm.norm() + span.fixed_force_B_N_per_mm.norm();
+    force_N.add_following(span.follower_load_S.force_N.norm());
+    force_N.add_fixed(span.fixed_load_B.force_N);
+    arms_Nmm += span.fixed_force_arms_BS_Nmm.norm();
+    moment_Nmm.add_following(span.follower_load_S.moment_Nmm.norm());
+    moment_Nmm.add_fixed(span.fixed_load_B.moment_Nmm);
     const double length_mm = span.length_mm() / cells_per_span[i];
+    const double following_N = length_mm * span.follower_force_S_N_per_mm.norm();
+    const Vector3d fixed_N = length_mm * span.fixed_force_B_N_per_mm;
+    double at_distal_end_N = force_N.size();
     for (int k = 0; k < cells_per_span[i]; ++k) {
-      force_N += per_mm * length_mm;
-      visit(LoadedCell{i, span, --cell, length_mm, force_N, moment_Nmm});
+      force_N.add_following(following_N);
+      force_N.add_fixed(fixed_N);
+      const double at_proximal_end_N = force_N.size();
+      visit(LoadedCell{i, span, --cell, length_mm, std::max(at_distal_end_N, at_proximal_end_N),
+                       moment_Nmm.size() + arms_Nmm, arms_Nmm});
+      at_distal_end_N = at_proximal_end_N;
     }
   }
 }

@@ -45,18 +45,25 @@ constexpr double most_log_change = 0.7;
 constexpr double tightest_newton_tolerance = 1e-13;  // some hundred round-offs of a rotation
 
 // A rod under fixed forces has one equilibrium while its energy is convex, at least up to a unique length
-// (load_length.h) of 6^(1/4), its square 2.45; a uniform one up to pi/2, 2.47. Turns and strains shift that; their
-// limits are chosen, not measured.
+// (load_length.h) of 6^(1/4), its square 2.45; a uniform one up to pi/2, 2.47. In the plane turns by moments leave that
+// as it is. In space they shift it: of 80 000 rods under fixed forces up to it and moments none ends elsewhere with 4 in
+// the place of 2 than with 0.8, nor with 3 of 80 000 with tendons, rest curvature, distributed and following loads;
+// without a limit 242 of 80 000 do, whose moments alone would turn them by up to 20 rad. Strains shift it, too; their
+// limit is chosen, not measured.
 constexpr double unique_length_squared = 2.4;
-constexpr double unique_turn_rad = 0.8;
+constexpr double unique_turn_rad = 2;
 constexpr double unique_strain = 0.1;
+// Within, moments in a plane are too small to turn the rod out of it: a strip under one needs pi/2 of its geometric
+// mean of EI and GJ, a turn by the least of them.
+constexpr double stable_turn_rad = 0.8;
 
 // What the full load can do to a rod at most.
 struct LoadBounds {
   double load_length = 0;  // of the whole rod
   double unique_length = 0;
-  double turn_rad = 0;  // by moments, and in space by rest curvature and tendons
-  double strain = 0;    // stretch and shear
+  double turn_rad = 0;       // by moments, and in space by rest curvature and tendons
+  double arms_turn_rad = 0;  // by forces off the centreline alone
+  double strain = 0;         // stretch and shear
 };
 
 // What the last march over all arcs met, as dense output needs it (shape.h).
@@ -115,8 +122,10 @@ class Shooting {
 
   const LoadedRod<D>& rod() const { return rod_; }
   const LoadBounds& bounds() const { return bounds_; }
-  // The loads are too small for a second equilibrium; then the one found is stable.
+  // The loads are too small for a second equilibrium, of a planar rod in its plane.
   bool one_equilibrium() const;
+  // Then the one found is stable, in space.
+  bool is_surely_stable() const { return one_equilibrium() && bounds_.turn_rad <= stable_turn_rad; }
   // All moments are known in the base's axes beforehand (scene::moments_are_known).
   bool moments_are_known() const { return moments_are_known_; }
   double newton_tolerance() const { return newton_tolerance_; }
@@ -132,10 +141,12 @@ class Shooting {
   }
   // No load: the rest shape.
   void start_unloaded();
-  // The full load, and the shape that a march from the clamp leads to where the moments are known: the same arcs with
-  // a negative length, so that it is off by no more than the law is. False: the march back misses a segment's end by
-  // more than a quarter turn, the arcs are too long.
-  bool start_from_clamp();
+  // The full load, and the shape that a march from the clamp leads to under the wrench that the loads would leave there
+  // if the rod kept its rest shape: the same arcs with a negative length. Where the moments are known beforehand it is
+  // off by no more than the law is.
+  void start_from_clamp();
+  // From there. False, too: the march back misses a segment's end by more than a quarter turn, the arcs are too long.
+  bool solve_known_moments();
   // From the shape that the rod had, at the start of the way: state_at(arc) at an arc's distal end, without the point
   // loads there.
   template <class StateAt>
@@ -146,7 +157,8 @@ class Shooting {
   }
   // From the nodes as they are to those of the present load.
   bool newton(double tolerance, const OnTheWay* way = nullptr);
-  // The full load from the rest shape; first with a quarter of the arcs or one, whose derivatives then serve for all.
+  // The full load from start_from_clamp(); first with a quarter of the arcs or one, whose
+  // derivatives then serve for all.
   bool solve_at_once();
   // The full load from the nodes as they are.
   bool solve_from_here();
@@ -200,6 +212,9 @@ class Shooting {
 
  private:
   void cut_into_segments();
+  // clamp: the wrench there, or null for the rest shape. The nodes are those of the march; the result is what the loads
+  // come to about the clamp on the way.
+  BasicWrench<double, D> march_outwards(const BasicWrench<double, D>* clamp);
   bool has_few_arcs() const;
   void reserve_few_arcs();
   bool solve_few_arcs();

@@ -10,8 +10,8 @@ namespace fam {
 
 template <int D>
 bool Shooting<D>::one_equilibrium() const {
-  return bounds_.unique_length * bounds_.unique_length <= unique_length_squared &&
-         bounds_.turn_rad <= unique_turn_rad && bounds_.strain <= unique_strain;
+  return bounds_.unique_length * bounds_.unique_length <= unique_length_squared * (1 - bounds_.arms_turn_rad) &&
+         (D == 2 || bounds_.turn_rad <= unique_turn_rad) && bounds_.strain <= unique_strain;
 }
 
 template <int D>
@@ -27,7 +27,7 @@ void Shooting<D>::cut_into_segments() {
   };
   for (const scene::Span& span : bounds) compliance_per_Nmm += span.length_mm() / giving_way_Nmm2(span);
   int end_arc = rod_.arc_count();
-  walk_from_tip(bounds, rod_.arcs_per_span(), [&](const LoadedCell& arc) {
+  const auto visit = [&](const LoadedCell& arc) {
     const double least_Nmm2 = least_stiffness_Nmm2(arc.span);
     const double buckling_Nmm2 = giving_way_Nmm2(arc.span), by_forces = arc.load_length(buckling_Nmm2, false);
     const double load_length = arc.load_length(buckling_Nmm2, D == 3);
@@ -38,6 +38,7 @@ void Shooting<D>::cut_into_segments() {
     const scene::Wrench tendons = straight_tendons(arc.span);
     bounds_.load_length += load_length;
     bounds_.turn_rad += arc.length_mm * arc.moment_Nmm / least_Nmm2;
+    bounds_.arms_turn_rad += arc.length_mm * arc.arms_Nmm / buckling_Nmm2;
     if (D == 3) {  // in the plane bent rods are as good as straight ones
       bounds_.turn_rad +=
           arc.length_mm * (arc.span.rest_curvature_per_mm.norm() + tendons.moment_Nmm.norm() / least_Nmm2);
@@ -55,7 +56,10 @@ void Shooting<D>::cut_into_segments() {
     since_cut += load_length;
     const Eigen::Vector2d& bending_Nmm2 = arc.span.stiffness.bending_Nmm2;
     softness_.back() += arc.length_mm * bending_Nmm2.tail<D - 1>().cwiseSqrt().cwiseInverse().sum();
-  });
+  };
+  // Loads that grow from none bound themselves.
+  const bool from_no_load = bounds.data() == rod_.way().to.data();
+  walk_from_tip(bounds, rod_.arcs_per_span(), visit, from_no_load ? Sum::vectors : Sum::sizes);
   bounds_.unique_length += std::sqrt(std::sqrt(6 * convexity));
   segments_.push_back({0, end_arc});
   std::reverse(segments_.begin(), segments_.end());

@@ -8,15 +8,34 @@
 namespace fam {
 namespace {
 
-// The arc from its proximal end to its distal one.
+// The arc from its proximal end to its distal one, as if its tendons ran along it.
 template <int D>
 BasicArcConstants<D> backwards(BasicArcConstants<D> arc) {
+  for (const BasicTendon<D>& tendon : arc.straight_tendons ? std::span<const BasicTendon<D>>() : arc.tendons) {
+    const Vector<double, D> pull_N = tendon.tension_N * Vector<double, D>::Unit(0);
+    arc.rest_rotation -= arc.angular_compliance.cwiseProduct(arm_cross(tendon.arm_mm, pull_N));
+  }
   arc.length_mm *= -1;
   arc.angular_compliance *= -1;
   arc.rest_rotation *= -1;
   arc.linear_compliance *= -1;
   arc.rest_translation_mm *= -1;
   return arc;
+}
+
+template <int D>
+BasicMotion<double, D> elastic_arc(Law law, const BasicArcConstants<D>& arc, const ArcForces<double, D>* forces,
+                                   BasicWrench<double, D>& wrench, BasicScrew<double, D>& screw) {
+  if constexpr (D == 3) return elastic_step<false>(law, arc, forces, wrench, screw);
+  else return flat_step(law, ElasticSection<false, double, D>(arc), forces, wrench, screw);
+}
+
+// A moment in the base's axes.
+Vector3d turned_back(const Matrix3d& rotation_SB, const Vector3d& moment_S) {
+  return rotation_SB.transpose() * moment_S;
+}
+Angular<double, 2> turned_back(const Eigen::Matrix2d&, const Angular<double, 2>& moment_S) {
+  return moment_S;
 }
 
 template <int D>
@@ -42,30 +61,64 @@ void Shooting<D>::start_unloaded() {
   }
 }
 
+// Shear and stretch are left out.
 template <int D>
-bool Shooting<D>::start_from_clamp() {
-  set_load(1);
-  Node at{Rotation::Identity(), {}};
-  for (const SpanArcs<D>& span : rod_.span_arcs()) span.add_point_loads(at.rotation_SB, at.wrench);
+BasicWrench<double, D> Shooting<D>::march_outwards(const BasicWrench<double, D>* clamp) {
+  Node at{Rotation::Identity(), clamp ? *clamp : BasicWrench<double, D>{}};
+  Vector<double, D> position_B_mm = Vector<double, D>::Zero();
+  BasicWrench<double, D> loads_B;  // about the clamp
+  const auto meet = [&](const BasicWrench<double, D>& load_S, const Vector<double, D>& where_B_mm) {
+    const Vector<double, D> force_N = at.rotation_SB.transpose() * load_S.force_N;
+    loads_B.force_N += force_N;
+    loads_B.moment_Nmm += arm_cross(where_B_mm, force_N) + turned_back(at.rotation_SB, load_S.moment_Nmm);
+  };
   std::size_t segment = 0;
   for (const SpanArcs<D>& span : rod_.span_arcs()) {
     const BasicArcConstants<D> back = backwards(span.constants);
-    const ElasticSection<false, double, D> section(back);
     for (int arc = span.first_arc; arc < span.end_arc; ++arc) {
-      BasicScrew<double, D> screw;
+      const ArcForces<double, D> forces = span.forces(at.rotation_SB);
+      const ArcForces<double, D> against{-forces.follower_S_N, -forces.fixed_D_N};
+      BasicScrew<double, D> screw{back.rest_rotation, back.rest_translation_mm};
       const BasicMotion<double, D> motion =
-          flat_step(rod_.law(), section, static_cast<const ArcForces<double, D>*>(nullptr), at.wrench, screw);
+          clamp ? elastic_arc(rod_.law(), back, span.distributed ? &against : nullptr, at.wrench, screw)
+                : exponential(screw);
       for (int axis = 0; axis < D; ++axis)
         at.rotation_SB.col(axis) = motion.rotate(Vector<double, D>(at.rotation_SB.col(axis)));
-      if (arc + 1 == span.end_arc) at.wrench.moment_Nmm -= loads_at_end(span, at.rotation_SB).moment_Nmm;
+      const Vector<double, D> way_B_mm = -(at.rotation_SB.transpose() * motion.position_mm);
+      if (span.distributed)
+        meet({forces.follower_S_N + forces.fixed_D_N, Angular<double, D>::Zero()}, position_B_mm + way_B_mm / 2);
+      position_B_mm += way_B_mm;
+      if (arc + 1 == span.end_arc) {
+        const BasicWrench<double, D> loads_S = loads_at_end(span, at.rotation_SB);
+        at.wrench = at.wrench + -1.0 * loads_S;
+        meet(loads_S, position_B_mm);
+      }
       if (arc + 1 == segments_[segment].end_arc) nodes_[segment++] = at;
     }
   }
   nodes_.back().wrench = {};
+  return loads_B;
+}
+
+template <int D>
+void Shooting<D>::start_from_clamp() {
+  set_load(1);
+  BasicWrench<double, D> clamp = march_outwards(nullptr);
+  const BasicWrench<double, D> bent = march_outwards(&clamp);
+  const Angular<double, D> change_Nmm = bent.moment_Nmm - clamp.moment_Nmm;
+  const double share = change_Nmm.dot(clamp.moment_Nmm) / clamp.moment_Nmm.squaredNorm();
+  if (!(std::abs(share) > 1e-3 && share < 0.5)) return;
+  clamp.moment_Nmm += 1 / (1 - share) * change_Nmm;
+  march_outwards(&clamp);
+}
+
+template <int D>
+bool Shooting<D>::solve_known_moments() {
+  start_from_clamp();
   for (std::size_t k = 0; k < segments_.size(); ++k) {
     if (!equations(k, false).mismatch_is_small) return false;
   }
-  return true;
+  return solve_from_here();
 }
 
 template <int D>
@@ -86,7 +139,7 @@ bool Shooting<D>::solve_at_once() {
     newton_steps_ += few_arcs_->newton_steps_;
     return newton_one_segment(true, newton_tolerance_);
   }
-  start_unloaded();
+  start_from_clamp();
   return solve_from_here();
 }
 
@@ -126,8 +179,10 @@ bool Shooting<D>::solve_from(const Shooting& fewer) {
 
 template void Shooting<2>::start_unloaded();
 template void Shooting<3>::start_unloaded();
-template bool Shooting<2>::start_from_clamp();
-template bool Shooting<3>::start_from_clamp();
+template void Shooting<2>::start_from_clamp();
+template void Shooting<3>::start_from_clamp();
+template bool Shooting<2>::solve_known_moments();
+template bool Shooting<3>::solve_known_moments();
 template bool Shooting<2>::solve_at_once();
 template bool Shooting<3>::solve_at_once();
 template bool Shooting<2>::solve_from_here();

@@ -14,7 +14,7 @@ namespace fam {
 //                      with Options::after_snap only if its path never comes back to the full load
 //   load_step_too_small, work_limit, not_converged   see fam/load_growth.h
 //   arc_not_converged  published law: see fam/published_arc.h; sixth_order with fixed arcs: an arc longer than its
-//                      series can resolve (fam/engine.h); known moments: see Shooting::start_from_clamp
+//                      series can resolve (fam/engine.h); known moments: see Shooting::solve_known_moments
 //   tolerance_not_met  estimated error > tolerance with max_arcs arcs
 //   tendon_collapsed   |v + u x r| <= smallest_tendon_stretch somewhere (fam/tendon.h)
 //   not_finite         overflow

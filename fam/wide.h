@@ -1,6 +1,6 @@
 // Vectors of space, each in one register of four doubles: a scalar for the templates of fam/screw.h and
-// fam/arc_series.h on AVX2. Eigen's three doubles go through memory, where loads wait for stores of another width. An arc's step takes
-// a quarter of the instructions and two thirds of the time so.
+// fam/arc_series.h on AVX2. Eigen's three doubles go through memory, where loads wait for stores of another width: an
+// arc's step takes a quarter of the instructions and two thirds of the time so.
 #pragma once
 
 #include "fam/screw.h"

@@ -61,6 +61,28 @@ TEST(SurvivorsFam, StripPushedAsideByNextToNothing) {
   }
 }
 
+// Moments that turn a rod by several rad leave it more than one equilibrium under forces that alone leave one.
+TEST(SurvivorsFam, MomentsBesideSmallForces) {
+  const Scene rod = uniform_rod(
+      38.13, {500, {331.1, 331.1}, {}, {}, 0},
+      {Force{38.13, Frame::fixed, {0.0946, 0.0507, -0.1999}}, Moment{38.13, Frame::fixed, {-31.43, 10.84, 22.74}},
+       Moment{38.13, Frame::follower, {-38.77, -0.217, -5.309}}});
+  const Vector3d exact_mm = tip(by_exact(rod));
+  EXPECT_LT((tip(by_fam(rod, 1e-3)) - exact_mm).norm(), 1e-3);
+  EXPECT_GT((tip(by_fam(support::stiffer(rod), 1e-3)) - exact_mm).norm(), 0.1);
+}
+
+// A couple of forces off the centreline bends a strip on edge by 0.04 rad, and turns it out of its plane.
+TEST(SurvivorsFam, CoupleTurnsAStripOutOfItsPlane) {
+  const auto pressed = [](double force_N) {
+    Scene strip = uniform_rod(100, {100, {5000, 100}, {}, {}, 0}, couple(100, {force_N, 0, 0}, {0, 10}));
+    strip.loads.push_back(Force{100, Frame::fixed, {0, 0, 1e-4}});
+    return by_fam(strip, 1e-2).stable;
+  };
+  EXPECT_EQ(pressed(0.05), true);
+  EXPECT_EQ(pressed(0.095), false);
+}
+
 // Planar rods under opposite fixed forces off the centreline, some of the 1191 such that were drawn: a load step that
 // turns a segment end otherwise than predicted, by most of its turn, led to other branches.
 TEST(SurvivorsFam, CouplesOffTheCentreline) {

@@ -160,7 +160,30 @@ TEST(SurvivorsFam, SwingOfAMoment) {
 }
 
 TEST(SurvivorsFam, LeverArmsAreMoments) {  // |F| |r| = 3 2, summed over the couple
-  EXPECT_DOUBLE_EQ(fam::load_moment_Nmm(spans(uniform_rod(10, slender(1, 1), couple(10, {0, 3, 0}, {2, 0})))[0]), 12);
+  double moment_Nmm = 0;
+  fam::walk_from_tip(spans(uniform_rod(10, slender(1, 1), couple(10, {0, 3, 0}, {2, 0}))), fam::OneEach{},
+                     [&](const fam::LoadedCell& cell) { moment_Nmm = cell.moment_Nmm; });
+  EXPECT_DOUBLE_EQ(moment_Nmm, 12);
+}
+
+// Fixed forces add up as vectors, those that follow the rod by their sizes; on a cell the larger of its ends' counts.
+TEST(SurvivorsFam, OppositeForcesCancelBelow) {
+  const Scene pressed = uniform_rod(
+      30, slender(1, 1),
+      {Force{30, Frame::fixed, {0, 3, 0}}, Force{20, Frame::fixed, {0, -3, 0}}, Force{10, Frame::follower, {0, 0, 2}},
+       Moment{30, Frame::fixed, {0, 5, 0}}, Moment{20, Frame::fixed, {0, 0, 12}}});
+  const auto met = [&](fam::Sum sum) {
+    std::vector<double> values;
+    fam::walk_from_tip(
+        spans(pressed), fam::OneEach{},
+        [&](const fam::LoadedCell& cell) {
+          values.insert(values.end(), {cell.force_N, cell.moment_Nmm});
+        },
+        sum);
+    return values;
+  };
+  EXPECT_EQ(met(fam::Sum::vectors), (std::vector<double>{3, 5, 0, 13, 2, 13}));
+  EXPECT_EQ(met(fam::Sum::sizes), (std::vector<double>{3, 5, 6, 17, 8, 17}));
 }
 
 // A torque M on two sections: the turn is M s/GJ, of each its own, and the rod stays straight.
