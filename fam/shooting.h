@@ -46,8 +46,8 @@ constexpr double tightest_newton_tolerance = 1e-13;  // some hundred round-offs 
 
 // A rod under fixed forces has one equilibrium while its energy is convex, at least up to a unique length
 // (load_length.h) of 6^(1/4), its square 2.45; a uniform one up to pi/2, 2.47. In the plane turns by moments leave that
-// as it is. In space they shift it: of 80 000 rods under fixed forces up to it and moments none ends elsewhere with 4 in
-// the place of 2 than with 0.8, nor with 3 of 80 000 with tendons, rest curvature, distributed and following loads;
+// as it is. In space they shift it: of 80 000 rods under fixed forces up to it and moments none ends elsewhere with 4
+// in the place of 2 than with 0.8, nor with 3 of 80 000 with tendons, rest curvature, distributed and following loads;
 // without a limit 242 of 80 000 do, whose moments alone would turn them by up to 20 rad. Strains shift it, too; their
 // limit is chosen, not measured.
 constexpr double unique_length_squared = 2.4;
@@ -59,11 +59,12 @@ constexpr double stable_turn_rad = 0.8;
 
 // What the full load can do to a rod at most.
 struct LoadBounds {
-  double load_length = 0;  // of the whole rod
-  double unique_length = 0;
-  double turn_rad = 0;       // by moments, and in space by rest curvature and tendons
-  double arms_turn_rad = 0;  // by forces off the centreline alone
-  double strain = 0;         // stretch and shear
+  double load_length = 0;            // of the whole rod
+  double unique_share = 0;           // of what leaves it one equilibrium (load_length.h), of a planar rod in its plane
+  double unique_share_in_space = 0;  // the same in space
+  double turn_rad = 0;               // by moments, and in space by rest curvature and tendons
+  double turn_in_space_rad = 0;      // by all of these
+  double strain = 0;                 // stretch and shear
 };
 
 // What the last march over all arcs met, as dense output needs it (shape.h).
@@ -125,7 +126,9 @@ class Shooting {
   // The loads are too small for a second equilibrium, of a planar rod in its plane.
   bool one_equilibrium() const;
   // Then the one found is stable, in space.
-  bool is_surely_stable() const { return one_equilibrium() && bounds_.turn_rad <= stable_turn_rad; }
+  bool is_surely_stable() const {
+    return one_equilibrium() && bounds_.unique_share_in_space <= 1 && bounds_.turn_in_space_rad <= stable_turn_rad;
+  }
   // All moments are known in the base's axes beforehand (scene::moments_are_known).
   bool moments_are_known() const { return moments_are_known_; }
   double newton_tolerance() const { return newton_tolerance_; }

@@ -7,11 +7,32 @@
 #include <cmath>
 
 namespace fam {
+namespace {
+
+// The unique length (load_length.h) of a rod whose sections give way with these stiffnesses, from the tip on.
+struct UniqueLength {
+  double compliance_per_Nmm = 0;  // of the rod between the clamp and the cell
+  double trace = 0, by_moments = 0, arms_turn_rad = 0;
+
+  void add(const LoadedCell& cell, double force_beyond_Nmm, double stiffness_Nmm2, bool spins) {
+    compliance_per_Nmm = std::max(0.0, compliance_per_Nmm - cell.length_mm / stiffness_Nmm2);
+    trace += convexity_share(cell.force_N, force_beyond_Nmm, compliance_per_Nmm, cell.length_mm, stiffness_Nmm2);
+    if (spins) by_moments += cell.load_length(stiffness_Nmm2, true) - cell.load_length(stiffness_Nmm2, false);
+    arms_turn_rad += cell.length_mm * cell.arms_Nmm / stiffness_Nmm2;
+  }
+  // Whether the energy is convex; over the largest square.
+  double share() const {
+    const double length = by_moments + std::sqrt(std::sqrt(6 * trace));
+    return length * length / unique_length_squared + arms_turn_rad;
+  }
+};
+
+}  // namespace
 
 template <int D>
 bool Shooting<D>::one_equilibrium() const {
-  return bounds_.unique_length * bounds_.unique_length <= unique_length_squared * (1 - bounds_.arms_turn_rad) &&
-         (D == 2 || bounds_.turn_rad <= unique_turn_rad) && bounds_.strain <= unique_strain;
+  return bounds_.unique_share <= 1 && (D == 2 || bounds_.turn_rad <= unique_turn_rad) &&
+         bounds_.strain <= unique_strain;
 }
 
 template <int D>
@@ -21,28 +42,31 @@ void Shooting<D>::cut_into_segments() {
   bounds_ = {};
   segments_.clear();
   softness_.assign(1, 0);
-  double since_cut = 0, convexity = 0, force_beyond_Nmm = 0, compliance_per_Nmm = 0;
+  double since_cut = 0, force_beyond_Nmm = 0;
+  UniqueLength unique, in_space;
   const auto giving_way_Nmm2 = [&](const scene::Span& span) {
     return planar ? span.stiffness.bending_Nmm2.minCoeff() : least_stiffness_Nmm2(span);
   };
-  for (const scene::Span& span : bounds) compliance_per_Nmm += span.length_mm() / giving_way_Nmm2(span);
+  for (const scene::Span& span : bounds) {
+    unique.compliance_per_Nmm += span.length_mm() / giving_way_Nmm2(span);
+    in_space.compliance_per_Nmm += span.length_mm() / least_stiffness_Nmm2(span);
+  }
   int end_arc = rod_.arc_count();
   const auto visit = [&](const LoadedCell& arc) {
     const double least_Nmm2 = least_stiffness_Nmm2(arc.span);
-    const double buckling_Nmm2 = giving_way_Nmm2(arc.span), by_forces = arc.load_length(buckling_Nmm2, false);
+    const double buckling_Nmm2 = giving_way_Nmm2(arc.span);
     const double load_length = arc.load_length(buckling_Nmm2, D == 3);
-    compliance_per_Nmm = std::max(0.0, compliance_per_Nmm - arc.length_mm / buckling_Nmm2);
-    convexity += convexity_share(arc.force_N, force_beyond_Nmm, compliance_per_Nmm, arc.length_mm, buckling_Nmm2);
+    unique.add(arc, force_beyond_Nmm, buckling_Nmm2, D == 3);
+    in_space.add(arc, force_beyond_Nmm, least_Nmm2, true);
     force_beyond_Nmm += arc.force_N * arc.length_mm;
-    bounds_.unique_length += load_length - by_forces;
     const scene::Wrench tendons = straight_tendons(arc.span);
     bounds_.load_length += load_length;
-    bounds_.turn_rad += arc.length_mm * arc.moment_Nmm / least_Nmm2;
-    bounds_.arms_turn_rad += arc.length_mm * arc.arms_Nmm / buckling_Nmm2;
-    if (D == 3) {  // in the plane bent rods are as good as straight ones
-      bounds_.turn_rad +=
-          arc.length_mm * (arc.span.rest_curvature_per_mm.norm() + tendons.moment_Nmm.norm() / least_Nmm2);
-    }
+    const double by_moments_rad = arc.length_mm * arc.moment_Nmm / least_Nmm2;
+    const double at_rest_rad =
+        arc.length_mm * (arc.span.rest_curvature_per_mm.norm() + tendons.moment_Nmm.norm() / least_Nmm2);
+    // In the plane bent rods are as good as straight ones.
+    bounds_.turn_rad += by_moments_rad + (D == 3 ? at_rest_rad : 0);
+    bounds_.turn_in_space_rad += by_moments_rad + at_rest_rad;
     if (rod_.model() == RodModel::reissner) {
       const double force_N = arc.force_N + tendons.force_N.norm();
       bounds_.strain = std::max(bounds_.strain, force_N * linear_compliance_per_N(arc.span));
@@ -60,7 +84,8 @@ void Shooting<D>::cut_into_segments() {
   // Loads that grow from none bound themselves.
   const bool from_no_load = bounds.data() == rod_.way().to.data();
   walk_from_tip(bounds, rod_.arcs_per_span(), visit, from_no_load ? Sum::vectors : Sum::sizes);
-  bounds_.unique_length += std::sqrt(std::sqrt(6 * convexity));
+  bounds_.unique_share = unique.share();
+  bounds_.unique_share_in_space = in_space.share();
   segments_.push_back({0, end_arc});
   std::reverse(segments_.begin(), segments_.end());
   std::reverse(softness_.begin(), softness_.end());

@@ -83,6 +83,34 @@ TEST(SurvivorsFam, CoupleTurnsAStripOutOfItsPlane) {
   EXPECT_EQ(pressed(0.095), false);
 }
 
+// A strip under a force along its stiff side that leaves one equilibrium in its plane turns over by a soft torsion.
+TEST(SurvivorsFam, StripFallsOutOfItsPlane) {
+  for (const double torsion_Nmm2 : {20., 1000.}) {
+    const Scene strip =
+        uniform_rod(100, {torsion_Nmm2, {700, 1500}, {}, {}, 0}, {Force{100, Frame::fixed, {0, 0.126, 0}}});
+    EXPECT_EQ(by_exact(strip).stable, torsion_Nmm2 > 100);
+    EXPECT_EQ(by_fam(strip, 0.1).stable, torsion_Nmm2 > 100);
+  }
+}
+
+// A curved rod in its plane under its weight has one equilibrium there; a soft torsion lets it fall out of it.
+TEST(SurvivorsFam, CurvedRodFallsOutOfItsPlane) {
+  const auto curved = [](double torsion_Nmm2) {
+    Scene rod = uniform_rod(123, {torsion_Nmm2, {755, 755}, {}, {}, 1.7e-3}, {});
+    rod.sections.push_back({75, scene::Stiffness{512, {725, 725}, {}, {}, 3e-4}});
+    rod.sections.push_back({187, scene::Stiffness{540, {871, 2870}, {}, {}, 9.5e-3}});
+    rod.sections[0].rest_curvature_per_mm = {0, 0, -2.1e-3};
+    rod.sections[1].rest_curvature_per_mm = {0, 0, -0.0105};
+    rod.loads = {scene::Gravity{{1.55, 9.69, 0}}};
+    return rod;
+  };
+  for (const double torsion_Nmm2 : {88.4, 400.}) {
+    const Scene rod = curved(torsion_Nmm2);
+    EXPECT_EQ(by_exact(rod).stable, torsion_Nmm2 > 100);
+    EXPECT_EQ(by_fam(rod, 0.4).stable, torsion_Nmm2 > 100);
+  }
+}
+
 // Planar rods under opposite fixed forces off the centreline, some of the 1191 such that were drawn: a load step that
 // turns a segment end otherwise than predicted, by most of its turn, led to other branches.
 TEST(SurvivorsFam, CouplesOffTheCentreline) {
