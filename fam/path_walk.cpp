@@ -13,7 +13,6 @@ using scene::PathStatus;
 constexpr double first_length = 0.02;
 constexpr double longest_length = 0.35;
 constexpr double smallest_length = 1e-10;
-constexpr double no_struggle = 1e-5;  // a step so long tells that a tendon without length before it was a guess's alone
 constexpr double largest_step_surprise_rad = 0.1, wanted_surprise_rad = 0.02;
 constexpr double least_alignment = 0.92;  // of the tangents at its ends
 // Where the determinant falls a step goes no farther than most of the way to its zero, so that no two critical points
@@ -144,7 +143,7 @@ std::optional<PathPlace> PathWalk::take_step(PathPlace& from) {
     }
     if (length_ < smallest_length) {
       std::ostringstream message;
-      message << (tendon_collapsed_ ? "a tendon's path has no length somewhere, at"
+      message << (collapse_is_ahead() ? "a tendon's path has no length somewhere, at"
                                     : "steps fell below the smallest at")
               << " the parameter " << from.state.parameter;
       end(PathStatus::step_too_small, message.str());
@@ -154,9 +153,8 @@ std::optional<PathPlace> PathWalk::take_step(PathPlace& from) {
     if (slope > 0) length_ = std::min(length_, 0.98 * settings_.largest_step / slope);
     length_ = std::min(length_, watched_length(from));
     std::optional<PathPlace> next = stepper_.step(from, length_, curvature_);
-    if (!next) tendon_collapsed_ = tendon_collapsed_ || stepper_.tendon_collapsed();
+    if (!next && stepper_.tendon_collapsed()) collapsed_at_ = travelled_ + length_;
     if (!next || !is_fit(from, *next) || !stepper_.judge(*next)) continue;
-    if (length_ > no_struggle) tendon_collapsed_ = false;
     if (!settings_.range.is_watched && !stepper_.is_small_change(from.state.parameter, next->state.parameter)) continue;
     if (stepper_.is_accurate(*next) || from.is_fork) return next;
     if (!stepper_.refine_for(*next, from)) {

@@ -36,9 +36,10 @@ class PathWalk {
   const std::vector<SavedPlace>& places() const { return places_; }  // of the path's points
   PathStepper& stepper() { return stepper_; }
   // Whether steps fell below the smallest where a tendon's path has no length.
-  bool tendon_collapsed() const { return path_.status == scene::PathStatus::step_too_small && tendon_collapsed_; }
+  bool tendon_collapsed() const { return path_.status == scene::PathStatus::step_too_small && collapse_is_ahead(); }
 
  private:
+  bool collapse_is_ahead() const { return travelled_ < collapsed_at_; }
   using Kind = scene::PathPoint::Kind;
   // Something that happens in a step, so far along it.
   struct Event {
@@ -92,7 +93,7 @@ class PathWalk {
   scene::BranchWatch watch_;
   int watched_places_ = 0;
   int steps_ = 0;
-  bool tendon_collapsed_ = false;  // in a step that failed, since one that did not struggle
+  double collapsed_at_ = 0;  // how far the last step led that failed by a tendon without length
   bool ended_ = false;
 };
 

@@ -20,7 +20,7 @@ struct UniqueLength {
     if (spins) by_moments += cell.load_length(stiffness_Nmm2, true) - cell.load_length(stiffness_Nmm2, false);
     arms_turn_rad += cell.length_mm * cell.arms_Nmm / stiffness_Nmm2;
   }
-  // Whether the energy is convex; over the largest square.
+  // The energy is convex where this is at most 1.
   double share() const {
     const double length = by_moments + std::sqrt(std::sqrt(6 * trace));
     return length * length / unique_length_squared + arms_turn_rad;
