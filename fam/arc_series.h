@@ -114,4 +114,21 @@ BasicMotion<T, D> sixth_order_step(Section&& section, const ArcForces<T, D>* for
   return exponential(screw);
 }
 
+// The step of the part of an arc that ends at its distal end, by the series of the whole, which becomes its own.
+template <bool with_shear, class T, int D, std::size_t terms>
+BasicMotion<T, D> part_step(RodSeries<T, D, terms>& s, double part, BasicWrench<T, D>& wrench) {
+  double power = 1;
+  for (std::size_t k = 0; k < terms; ++k, power *= part) {
+    s.rotation[k] = T(power * part) * s.rotation[k];
+    if (with_shear || k == 0) s.translation_mm[k] = T(power * part) * s.translation_mm[k];
+    if (terms == 6) continue;
+    s.force_N[k] = T(power) * s.force_N[k];
+    s.moment_Nmm[k] = T(power) * s.moment_Nmm[k];
+  }
+  const BasicMotion<T, D> motion = exponential(magnus<with_shear>(s));
+  if constexpr (terms == 6) wrench = transport(motion, wrench);
+  else wrench = proximal_wrench(s);
+  return motion;
+}
+
 }  // namespace fam

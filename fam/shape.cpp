@@ -31,17 +31,15 @@ BasicPose<D> before(const BasicPose<D>& distal, const BasicMotion<double, D>& mo
   return pose;
 }
 
-// A series about the distal end of an arc, of the part of it that ends there.
-template <int D, std::size_t terms>
-RodSeries<double, D, terms> part_of(RodSeries<double, D, terms> s, double part) {
-  double power = 1;
-  for (std::size_t k = 0; k < terms; ++k, power *= part) {
-    s.force_N[k] *= power;
-    s.moment_Nmm[k] *= power;
-    s.rotation[k] *= power * part;
-    s.translation_mm[k] *= power * part;
-  }
-  return s;
+// Of the part of an arc that ends at its distal end, by the series of the whole.
+template <bool with_shear, std::size_t terms>
+BasicMotion<double, 2> part_of(const RodSeries<double, 2, terms>& series, double part, BasicWrench<double, 2>& wrench) {
+  RodSeries<double, 2, terms> own = series;
+  return part_step<with_shear>(own, part, wrench);
+}
+template <bool with_shear, std::size_t terms>
+RigidMotion part_of(const RodSeries<double, 3, terms>& series, double part, SectionWrench& wrench) {
+  return step_of_part<with_shear>(series, part, wrench);
 }
 
 SectionPose pose_by_bezier(const Arc& arc, const SectionPose& proximal, double fraction) {
@@ -71,6 +69,7 @@ FAM_FLATTEN BasicMotion<double, D> ArcInterior<D>::step(double fraction, BasicWr
   const auto k = static_cast<std::size_t>(arc_);
   const BasicWrench<double, D>& distal = rod_->distal_wrenches_S[k];
   const double part = 1 - fraction;
+  wrench = distal;
   ArcForces<double, D> forces;
   if (span_->distributed) forces = span_->template forces<double>(rod_->poses[k + 1].rotation_BS.transpose());
   const ArcForces<double, D>* distributed = span_->distributed ? &forces : nullptr;
@@ -80,16 +79,8 @@ FAM_FLATTEN BasicMotion<double, D> ArcInterior<D>::step(double fraction, BasicWr
       else first_terms_ = series_of<with_shear, 6>(span_->constants, distributed, distal);
       has_series_ = true;
     }
-    if (distributed) {
-      const RodSeries<double, D, 7> s = part_of(series_, part);
-      wrench = proximal_wrench(s);
-      return exponential(magnus<with_shear>(s));
-    }
-    const BasicMotion<double, D> motion = exponential(magnus<with_shear>(part_of(first_terms_, part)));
-    wrench = transport(motion, distal);
-    return motion;
+    return distributed ? part_of<with_shear>(series_, part, wrench) : part_of<with_shear>(first_terms_, part, wrench);
   }
-  wrench = distal;
   const BasicArcConstants<D> constants = part_of(span_->constants, part);
   if (distributed) forces = {part * forces.follower_S_N, part * forces.fixed_D_N};
   BasicScrew<double, D> screw;

@@ -14,6 +14,10 @@ auto visit_wide(const ArcForces<double, 3>* forces, Visit&& visit) {
   return visit(&wide_forces);
 }
 
+inline RigidMotion narrow(const BasicMotion<Wide, 3>& motion) {
+  return {motion.rotation.narrow(), motion.position_mm.narrow(), motion.A, motion.B};
+}
+
 template <class Section>
 RigidMotion wide_step(Section&& section, const ArcForces<double, 3>* forces, SectionWrench& wrench, Screw& screw) {
   BasicWrench<Wide, 3> wide_wrench = wide(wrench);
@@ -23,7 +27,7 @@ RigidMotion wide_step(Section&& section, const ArcForces<double, 3>* forces, Sec
   });
   wrench = narrow(wide_wrench);
   screw = narrow(wide_screw);
-  return {motion.rotation.narrow(), motion.position_mm.narrow(), motion.A, motion.B};
+  return narrow(motion);
 }
 
 template <std::size_t terms, class Section>
@@ -41,6 +45,22 @@ RodSeries<double, 3, terms> wide_series(Section&& section, const ArcForces<doubl
     }
     return result;
   });
+}
+
+template <bool with_shear, std::size_t terms>
+RigidMotion wide_part_step(const RodSeries<double, 3, terms>& series, double part, SectionWrench& wrench) {
+  RodSeries<Wide, 3, terms> s;
+  for (std::size_t k = 0; k < terms; ++k) {
+    s.rotation[k] = Wide3::from(series.rotation[k]);
+    if (with_shear || k == 0) s.translation_mm[k] = Wide3::from(series.translation_mm[k]);
+    if (terms == 6) continue;
+    s.force_N[k] = Wide3::from(series.force_N[k]);
+    s.moment_Nmm[k] = Wide3::from(series.moment_Nmm[k]);
+  }
+  BasicWrench<Wide, 3> wide_wrench = wide(wrench);
+  const BasicMotion<Wide, 3> motion = part_step<with_shear>(s, part, wide_wrench);
+  wrench = narrow(wide_wrench);
+  return narrow(motion);
 }
 
 }  // namespace fam
