@@ -4,6 +4,7 @@
 #include "fam/shape.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace fam {
 namespace {
@@ -35,6 +36,11 @@ auto of_boundary_value(const BasicBoundaryValue<D>& problem, Get&& get) {
 template <int D, class Get>
 auto of_boundary_value(const BasicMarch<D>&, Get&& get) -> decltype(get(BasicBoundaryValue<D>())) {
   return 0;
+}
+
+template <int D>
+double series_error_of(const SolvedRod<D>& rod, std::span<const Span> spans, std::span<const int> arcs_per_span) {
+  return series_error_over_L<D>(spans, arcs_per_span, rod.arcs);
 }
 
 template <int D>
@@ -96,6 +102,12 @@ int Engine::load_steps() const {
 int Engine::newton_steps() const {
   return visit([](const auto& s) { return of_boundary_value(s, [](const auto& p) { return p.newton_steps(); }); });
 }
+bool Engine::has_one_solution() const {
+  return is_march_ ||
+         visit([](const auto& s) {
+           return of_boundary_value(s, [](const auto& problem) { return static_cast<int>(problem.one_equilibrium()); });
+         }) != 0;
+}
 bool Engine::way_was_smooth() const {
   return visit([](const auto& s) { return of_boundary_value(s, [](const auto& p) { return p.way_was_smooth(); }); });
 }
@@ -110,6 +122,12 @@ ArcExtent extent_of_arcs(const Engine& engine, std::span<const Span> spans, std:
   return {largest_load_length(spans, arcs_per_span),
           engine.visit([&](const auto& s) { return largest_swing_of(s.solved(), spans, arcs_per_span); }),
           engine.visit([](const auto& s) { return unseen_turn_rad(s.solved()); })};
+}
+
+double series_error_over_L(const Engine& engine, Law law, std::span<const Span> spans,
+                           std::span<const int> arcs_per_span) {
+  if (law != Law::sixth_order || !engine.has_one_solution()) return std::numeric_limits<double>::infinity();
+  return engine.visit([&](const auto& s) { return series_error_of(s.solved(), spans, arcs_per_span); });
 }
 
 Status verdict(const Engine& engine, Law law, const ArcExtent& extent) {

@@ -49,6 +49,7 @@ class Engine {
   double load_factor() const;  // that a boundary value problem has reached
   int load_steps() const;
   int newton_steps() const;
+  bool has_one_solution() const;     // a march, or no other equilibrium
   bool way_was_smooth() const;       // no critical point was near as the load grew
   double expected_turn_rad() const;  // of a segment's end, in the step that Newton left out; 0: a march
   std::string failure_message(scene::Status status) const;
@@ -82,6 +83,11 @@ struct ArcExtent {
 };
 // Of the longest of solved arcs; spans as they were solved (Problem::spans).
 ArcExtent extent_of_arcs(const Engine& engine, std::span<const scene::Span> spans, std::span<const int> arcs_per_span);
+
+// series_error_over_L (load_length.h) of the solved arcs; infinite of another law than sixth_order, and where there may
+// be another equilibrium.
+double series_error_over_L(const Engine& engine, Law law, std::span<const scene::Span> spans,
+                           std::span<const int> arcs_per_span);
 
 // What a solve with a given number of arcs ends in, that has converged: arc_not_converged where the law's series do not
 // reach the arcs' ends, tendon_collapsed where a tendon's path has no length, else converged. Does not allocate.

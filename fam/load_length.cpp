@@ -135,6 +135,31 @@ double largest_swing_rad(std::span<const Span> spans, std::span<const int> arcs_
   return largest;
 }
 
+template <int D>
+double series_error_over_L(std::span<const Span> spans, std::span<const int> arcs_per_span,
+                           std::span<const BasicArc<D>> arcs) {
+  double left_out = 0, length = 0;
+  walk_from_tip(spans, arcs_per_span, [&](const LoadedCell& cell) {
+    const Span& span = cell.span;
+    const double h_mm = cell.length_mm;
+    const double stiffness_Nmm2 = D == 2 ? span.stiffness.bending_Nmm2.minCoeff() : least_stiffness_Nmm2(span);
+    const Angular<double, D>& turn = arcs[static_cast<std::size_t>(cell.cell)].screw.rotation;
+    double x = std::max(h_mm * std::sqrt(cell.force_N / stiffness_Nmm2), turn.norm());
+    if constexpr (D == 3) {
+      const ArcMoment state(span, turn / h_mm);
+      const double spin_per_mm2 = state.moment_Nmm.cross(state.strain_per_mm).norm() / stiffness_Nmm2;
+      x = std::max({x, h_mm * state.rate_per_mm(), h_mm * std::sqrt(spin_per_mm2)});
+    }
+    const double density_N_per_mm = span.follower_force_S_N_per_mm.norm() + span.fixed_force_B_N_per_mm.norm();
+    const double q = h_mm * h_mm * h_mm * density_N_per_mm / stiffness_Nmm2;
+    left_out += x * x * x * x * (x * x * x + q);
+    length += x;
+  });
+  return series_share * (1 + length * length) * left_out;
+}
+
+template double series_error_over_L(std::span<const Span>, std::span<const int>, std::span<const BasicArc<2>>);
+template double series_error_over_L(std::span<const Span>, std::span<const int>, std::span<const BasicArc<3>>);
 template double largest_swing_rad(std::span<const Span>, std::span<const int>, std::span<const BasicArc<2>>);
 template double largest_swing_rad(std::span<const Span>, std::span<const int>, std::span<const BasicArc<3>>);
 

@@ -11,8 +11,13 @@
 // second order below 1 suffices,
 //   2 int F(s) c(s)^2 int_s^L F dt ds   (F^2 L^4 / (6 EI^2) of a uniform rod under a tip force: L^2 F/EI < 2.449).
 // The unique length is the fourth root of six times that, L sqrt(F/EI) of such a rod, and the moments' part is added.
-// Forces off the centreline, F at r, cost |F| |r| theta^2 more where they act, at most |F| |r| c of that integral: as
-// much is missing from 1.
+// In space a turn also works against the moment m that the loads leave to the section, whatever the rest shape and
+// straight tendons, which are but another one: a turn R exp(theta) has the strain k + dk + dk x theta / 2, dk = theta'
+// + k x theta, so that it costs at most int |m| |theta| |dk|, the root of int EI dk^2 times that of the kernel of
+// m^2/EI in the place of F, and |m| is at most int F ds. While both together are below int EI dk^2, at every
+// equilibrium, all are minima of the energy, and there is one alone: the minimum share, of the roots of the traces,
+// below 1. Forces off the centreline, F at r, cost |F| |r| theta^2 more where they act, at most |F| |r| c of that
+// integral: as much is missing from 1.
 #pragma once
 
 #include "fam/arc.h"
@@ -141,5 +146,18 @@ double swing_rate_per_mm(const scene::Span& span, const Vector3d& moment_Nmm);
 template <int D>
 double largest_swing_rad(std::span<const scene::Span> spans, std::span<const int> arcs_per_span,
                          std::span<const BasicArc<D>> arcs);
+
+// What the series of sixth order leave out of a solved shape, over its length, at most: the sum over the arcs of
+// x^7 + q x^4, times series_share and 1 + (sum x)^2 for what becomes of it along the rod. x is the largest of an arc's
+// load length, turn, swing and the root of what its strain turns by as the moment does (|m x k| h^2 over the least
+// stiffness), q = f h^3 / EI that of a distributed force f, which grows along it: the order of what
+// is left out, h^7, by what makes the strain change. Of marches and of rods with one equilibrium.
+// Of 220 000 rods drawn for it (up to eight sections with stiffnesses of 1 to 1e4, rest curvature, all kinds of loads)
+// and random scenes 18 200 had a bound below 1e-2 and an error above 3e-9: it is at most 0.41 of the bound, and 1.04
+// without the last factor.
+constexpr double series_share = 0.1;
+template <int D>
+double series_error_over_L(std::span<const scene::Span> spans, std::span<const int> arcs_per_span,
+                           std::span<const BasicArc<D>> arcs);
 
 }  // namespace fam

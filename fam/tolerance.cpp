@@ -61,7 +61,8 @@ double round_off_mm(const Problem& problem, const Run& run) {
 // Whether an answer leads to a finer one (leading_swing_rad); agrees: with a coarser one.
 bool leads(const Problem& problem, const Run& coarse, bool agrees) {
   if (!coarse.converged() || coarse.engine.is_march()) return false;
-  return agrees || coarse.engine.way_was_smooth() || coarse.extent(problem).swing_rad <= leading_swing_rad;
+  return agrees || coarse.engine.has_one_solution() || coarse.engine.way_was_smooth() ||
+         coarse.extent(problem).swing_rad <= leading_swing_rad;
 }
 
 // The answer with more arcs, from that with fewer if that leads there. Where it does not, or it is far off, the loads
@@ -118,8 +119,14 @@ class Ladder {
   // Of two runs that did not meet the tolerance: whether they lie on one branch.
   bool agree() const { return last_mm_ <= confirming_share * problem_.length_mm(); }
 
-  // Whether a run with the first arcs meets the tolerance by itself.
-  bool is_exact(const Run& run) { return problem_.choice().constant_strains && run.converged() && meets(run, 0, {}); }
+  // Whether a run meets the tolerance by itself: of constant strains, or by what its arcs' series leave out at most.
+  bool suffices(const Run& run) {
+    if (!run.converged()) return false;
+    const Choice& choice = problem_.choice();
+    const double left_out_over_L =
+        choice.constant_strains ? 0 : series_error_over_L(run.engine, choice.law, problem_.spans(), run.arcs);
+    return meets(run, 1, {left_out_over_L * problem_.length_mm(), left_out_over_L});
+  }
 
   // Which of two runs, the finer with `ratio` times the arcs, meets the tolerance; null if none.
   const Run* sufficient(const Run& coarse, const Run& fine, double ratio) {
@@ -195,7 +202,7 @@ Found solve_to_tolerance(const Problem& problem, Run& one, Run& another) {
   Ladder ladder(problem);
   Run *coarse = &one, *fine = &another;
   coarse->solve(problem, first);
-  if (ladder.is_exact(*coarse)) {
+  if (ladder.suffices(*coarse)) {
     fine->status = Status::not_converged;  // it may hold another problem's answer
     return {coarse, fine, Status::converged, ladder.error_mm()};
   }
