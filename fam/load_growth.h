@@ -62,7 +62,8 @@ class LoadGrowth {
   // At the solution with more arcs, whose determinant is this.
   void take_over(const LoadGrowth& fewer_arcs, const scene::Determinant& now) {
     load_steps_ = fewer_arcs.load_steps_;
-    was_smooth_ = fewer_arcs.was_smooth_ && !scene::has_fallen(fewer_arcs.start_determinant_, now);
+    const bool falls = fewer_arcs.watches_determinant_ && scene::has_fallen(fewer_arcs.start_determinant_, now);
+    was_smooth_ = fewer_arcs.was_smooth_ && !falls;
     start_determinant_ = fewer_arcs.start_determinant_;
     watches_determinant_ = fewer_arcs.watches_determinant_;
     watches_stability_ = fewer_arcs.watches_stability_;

@@ -62,9 +62,10 @@ struct LoadBounds {
   double load_length = 0;            // of the whole rod
   double unique_share = 0;           // of what leaves it one equilibrium (load_length.h), of a planar rod in its plane
   double unique_share_in_space = 0;  // the same in space
-  double turn_rad = 0;               // by moments, and in space by rest curvature and tendons
-  double turn_in_space_rad = 0;      // by all of these
-  double strain = 0;                 // stretch and shear
+  double minimum_share = std::numeric_limits<double>::infinity();  // of what leaves it but minima of an energy
+  double turn_rad = 0;           // by moments, and in space by rest curvature and tendons
+  double turn_in_space_rad = 0;  // by all of these
+  double strain = 0;             // stretch and shear
 };
 
 // What the last march over all arcs met, as dense output needs it (shape.h).
@@ -127,7 +128,8 @@ class Shooting {
   bool one_equilibrium() const;
   // Then the one found is stable, in space.
   bool is_surely_stable() const {
-    return one_equilibrium() && bounds_.unique_share_in_space <= 1 && bounds_.turn_in_space_rad <= stable_turn_rad;
+    const bool is_short = bounds_.unique_share_in_space <= 1 && bounds_.turn_in_space_rad <= stable_turn_rad;
+    return one_equilibrium() && (is_short || bounds_.minimum_share < 1);
   }
   // All moments are known in the base's axes beforehand (scene::moments_are_known).
   bool moments_are_known() const { return moments_are_known_; }
@@ -163,8 +165,9 @@ class Shooting {
   // The full load from start_from_clamp(); first with a quarter of the arcs or one, whose
   // derivatives then serve for all.
   bool solve_at_once();
-  // The full load from the nodes as they are.
+  // The full load from the nodes as they are, or as start_from_clamp() leaves them.
   bool solve_from_here();
+  bool solve_from_start();
   // The same near the solution of another one, whatever its arcs, from which the tip turns by about so much: of one
   // segment, with that one's derivatives in the first step.
   bool solve_near(const Shooting* other, const Angular<double, D>& tip_turn_B);
@@ -230,8 +233,10 @@ class Shooting {
   // The residuals of all segments and, unless the factors are to be kept, their derivatives, factorised. False: not
   // finite, or singular.
   bool evaluate_system(bool keep_factors, bool& mismatches_are_small);
-  // keep_slope, keep_factors: the derivatives at hand serve for the first step.
-  bool newton_one_segment(bool keep_slope, double tolerance, const OnTheWay* way = nullptr);
+  // keep_slope, keep_factors: the derivatives at hand serve for the first step, after which a second one would be as
+  // much smaller as said, no rigid rod's.
+  bool newton_one_segment(bool keep_slope, double tolerance, const OnTheWay* way = nullptr,
+                          double first_shrinkage = 0.1);
   bool newton_segments(bool keep_factors, double tolerance, const OnTheWay* way = nullptr);
   // Over segment k from its node, which the state is; fills marched_.
   void march_remembered(std::size_t k, Node& state) { rod_.march(segments_[k], state, marched_); }

@@ -13,26 +13,33 @@ namespace {
 struct UniqueLength {
   double compliance_per_Nmm = 0;  // of the rod between the clamp and the cell
   double trace = 0, by_moments = 0, arms_turn_rad = 0;
+  double moment_trace = 0, moment_squares_Nmm = 0;  // of the moments' kernel, and of its weight beyond the cell
 
   void add(const LoadedCell& cell, double force_beyond_Nmm, double stiffness_Nmm2, bool spins) {
     compliance_per_Nmm = std::max(0.0, compliance_per_Nmm - cell.length_mm / stiffness_Nmm2);
     trace += convexity_share(cell.force_N, force_beyond_Nmm, compliance_per_Nmm, cell.length_mm, stiffness_Nmm2);
     if (spins) by_moments += cell.load_length(stiffness_Nmm2, true) - cell.load_length(stiffness_Nmm2, false);
     arms_turn_rad += cell.length_mm * cell.arms_Nmm / stiffness_Nmm2;
+    const double moment_Nmm = force_beyond_Nmm + cell.length_mm * cell.force_N + cell.arms_Nmm;
+    const double square_N = moment_Nmm * moment_Nmm / stiffness_Nmm2;
+    moment_trace += convexity_share(square_N, moment_squares_Nmm, compliance_per_Nmm, cell.length_mm, stiffness_Nmm2);
+    moment_squares_Nmm += cell.length_mm * square_N;
   }
   // The energy is convex where this is at most 1.
   double share() const {
     const double length = by_moments + std::sqrt(std::sqrt(6 * trace));
     return length * length / unique_length_squared + arms_turn_rad;
   }
+  // Of loads that have an energy: every equilibrium is a minimum, and so the only one, where this is below 1.
+  double minimum_share() const { return std::sqrt(trace) + std::sqrt(std::sqrt(moment_trace)) + arms_turn_rad; }
 };
 
 }  // namespace
 
 template <int D>
 bool Shooting<D>::one_equilibrium() const {
-  return bounds_.unique_share <= 1 && (D == 2 || bounds_.turn_rad <= unique_turn_rad) &&
-         bounds_.strain <= unique_strain;
+  const bool is_short = bounds_.unique_share <= 1 && (D == 2 || bounds_.turn_rad <= unique_turn_rad);
+  return (is_short || bounds_.minimum_share < 1) && bounds_.strain <= unique_strain;
 }
 
 template <int D>
@@ -44,20 +51,22 @@ void Shooting<D>::cut_into_segments() {
   softness_.assign(1, 0);
   double since_cut = 0, force_beyond_Nmm = 0;
   UniqueLength unique, in_space;
-  const auto giving_way_Nmm2 = [&](const scene::Span& span) {
-    return planar ? span.stiffness.bending_Nmm2.minCoeff() : least_stiffness_Nmm2(span);
+  // A round rod's energy is that of its centreline's curvature, in space too.
+  const bool round = planar && scene::is_round(bounds);
+  const auto giving_way_Nmm2 = [](const scene::Span& span, bool torsion_counts) {
+    return torsion_counts ? least_stiffness_Nmm2(span) : span.stiffness.bending_Nmm2.minCoeff();
   };
   for (const scene::Span& span : bounds) {
-    unique.compliance_per_Nmm += span.length_mm() / giving_way_Nmm2(span);
-    in_space.compliance_per_Nmm += span.length_mm() / least_stiffness_Nmm2(span);
+    unique.compliance_per_Nmm += span.length_mm() / giving_way_Nmm2(span, !planar);
+    in_space.compliance_per_Nmm += span.length_mm() / giving_way_Nmm2(span, !round);
   }
   int end_arc = rod_.arc_count();
   const auto visit = [&](const LoadedCell& arc) {
     const double least_Nmm2 = least_stiffness_Nmm2(arc.span);
-    const double buckling_Nmm2 = giving_way_Nmm2(arc.span);
+    const double buckling_Nmm2 = giving_way_Nmm2(arc.span, !planar);
     const double load_length = arc.load_length(buckling_Nmm2, D == 3);
     unique.add(arc, force_beyond_Nmm, buckling_Nmm2, D == 3);
-    in_space.add(arc, force_beyond_Nmm, least_Nmm2, true);
+    in_space.add(arc, force_beyond_Nmm, giving_way_Nmm2(arc.span, !round), !round);
     force_beyond_Nmm += arc.force_N * arc.length_mm;
     const scene::Wrench tendons = straight_tendons(arc.span);
     bounds_.load_length += load_length;
@@ -86,6 +95,7 @@ void Shooting<D>::cut_into_segments() {
   walk_from_tip(bounds, rod_.arcs_per_span(), visit, from_no_load ? Sum::vectors : Sum::sizes);
   bounds_.unique_share = unique.share();
   bounds_.unique_share_in_space = in_space.share();
+  if (scene::is_conservative(bounds)) bounds_.minimum_share = in_space.minimum_share();
   segments_.push_back({0, end_arc});
   std::reverse(segments_.begin(), segments_.end());
   std::reverse(softness_.begin(), softness_.end());

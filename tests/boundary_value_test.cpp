@@ -108,6 +108,43 @@ TEST(BoundaryValue, ObservedOrders) {
 
 // Euler: an axial force just beyond pi^2 EI / (4 L^2). Exactly on the axis the straight rod, unstable; with a small
 // lateral force the buckled shape, stable; just below it the straight rod, stable.
+
+int fact(const scene::Equilibrium& result, const std::string& key) {
+  for (const auto& [name, value] : result.model) {
+    if (name == key) return std::get<int>(value);
+  }
+  return -1;
+}
+
+// A straight rod on its axis is an equilibrium under any load, and solved for at once; whether it stays there its second
+// variation tells. Euler: pi^2/4 EI/L^2.
+TEST(BoundaryValue, OnItsAxisARodIsSolvedAtOnce) {
+  for (const double times : {-1.01, -0.99, -360., 360.}) {
+    const double force_N = times * pi * pi / 4 * 750 / 1600;
+    const scene::Equilibrium column = solved(tip_force(slender(750, 500), {force_N, 0, 0}), 0.04);
+    EXPECT_EQ(fact(column, "load_steps"), 1);
+    EXPECT_LT((column.tip().position_B_mm - Vector3d(40, 0, 0)).norm(), 1e-12 * 40);
+    EXPECT_EQ(column.stable, times > -1);
+  }
+}
+
+// Small forces leave a coil with a tendon but a minimum of its energy: no load has to grow, nothing else has to tell
+// its stability, and the derivatives of a rigid rod lead there.
+TEST(BoundaryValue, SmallForcesOnACoilAreSolvedAtOnce) {
+  for (const double turn_rad : {1., 6.}) {
+    scene::Scene coil = tip_force({80, {100, 150}, {}, {}, 0}, {7.2e-4, 1.92e-3, -1.2e-3}, 100);
+    coil.loads.push_back(scene::Tendon{{1, 1}, 0.2 * turn_rad, 100});
+    coil.sections[0].rest_curvature_per_mm = turn_rad * Vector3d(2e-3, 6e-3, 7e-3);
+    const scene::Equilibrium answer = solved(coil, 0.1), exact = exact_reference::solve(coil);
+    EXPECT_EQ(fact(answer, "load_steps"), 1);
+    EXPECT_LE(fact(answer, "newton_iterations"), turn_rad > 1 ? 7 : 2);
+    EXPECT_EQ(answer.stable, true);
+    EXPECT_EQ(exact.stable, true);
+    EXPECT_LT(distance_mm(answer, exact), 0.1);
+    EXPECT_GT(distance_mm(answer, exact_reference::solve(support::stiffer(coil))), 0.2);
+  }
+}
+
 TEST(BoundaryValue, EulerColumn) {
   const double critical_N = pi * pi * 750 / (4 * 1600);
   const scene::Equilibrium below = solved(tip_force(slender(750, 500), {-0.999 * critical_N, 0, 0}), 1e-3);
