@@ -4,6 +4,7 @@
 #include "studies/compare/stopwatch.h"
 #include "studies/report/page.h"
 #include "studies/work_precision/aims.h"
+#include "studies/work_precision/random_races.h"
 
 #include <filesystem>
 #include <map>
@@ -53,6 +54,7 @@ struct WorkData {
   std::vector<WorkPoint> points;
   std::vector<AimRow> aims;
   std::vector<CountedSolve> counted;  // studies/work_precision/instructions.h
+  std::vector<RandomRace> races;
 
   // The resolutions of a series on a scene, in order of rising effort.
   std::vector<const WorkPoint*> of(const std::string& scene, const std::string& series, const std::string& model) const;
@@ -66,6 +68,7 @@ inline const std::vector<double> work_targets = {1e-2, 1e-3, 1e-5, 1e-8};  // ti
 inline const std::vector<std::string> work_models = {"Kirchhoff", "Reissner"};
 
 constexpr double work_error_floor = 1e-12;  // smaller errors are written as this
+std::string work_error_text(double error);  // over L, in CSV files; "–" where it is not finite
 constexpr double lost_error = 0.1;          // converged at the finest resolution, but so far away: another equilibrium
 
 std::string target_text(double target);  // "1e-03 L"

@@ -120,6 +120,8 @@ void set_times(Page& page, const WorkData& data) {
     page.set_time("ratios_" + key(group), ratios_table(data, group));
   }
   page.set_time("instructions", instructions_table(data));
+  page.set_time("races_answer", races_answer(data.races));
+  page.set_time("races", races_table(data.races));
   page.set_time("aims", aims_table(data));
   page.set_time("machine", machine_line());
   const Spread stepping = cost_of_stepping(data);
@@ -141,6 +143,7 @@ std::string work_precision_page(const WorkData& data, const std::filesystem::pat
                                                         [](const WorkScene& scene) { return scene.has_tendons; })));
   page.set("reference", for_reader(scientific(largest_reference_error(data), 0)));
   page.set("failures", failures_table(data));
+  page.set("races_right", races_right(data.races));
   page.set("lost", fmt::format("{}", lost_error));
   page.set("without_shooting", without_shooting(data));
   page.check("shooting_fails", !without_shooting(data).empty());

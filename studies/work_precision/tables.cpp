@@ -13,16 +13,17 @@
 #include <limits>
 
 namespace studies {
-namespace {
 
-std::string error_cell(double error) {
+std::string work_error_text(double error) {
   return std::isfinite(error) ? scientific(std::max(error, work_error_floor), 1) : "–";
 }
+
+namespace {
 
 std::string accuracy_csv(const WorkData& data) {
   Table table({"scene", "method", "model", "resolution", "status", "tip_error_over_L", "reference_error_over_L"});
   for (const WorkPoint& p : data.points) {
-    table.add({p.scene, p.series, p.model, p.resolution, p.status, error_cell(p.error),
+    table.add({p.scene, p.series, p.model, p.resolution, p.status, work_error_text(p.error),
                scientific(std::max(p.reference_error, work_error_floor), 0)});
   }
   return table.csv(
@@ -236,6 +237,8 @@ std::string aims_table(const WorkData& data) {
 
 std::map<std::string, std::string> work_precision_tables(const WorkData& data) {
   return {{"accuracy.csv", accuracy_csv(data)},
+          {races_file, races_csv(data.races)},
+          {"timing_random.csv", races_timing_csv(data.races)},
           {"aims.csv", aims_csv(data)},
           {"timing.csv", timing_csv(data)},
           {"timing_aims.csv", timing_aims_csv(data)},

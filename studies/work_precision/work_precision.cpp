@@ -1,6 +1,6 @@
 // fam-studies work-precision: the 16 cases of Study I in both frames, Study II with gravity,
-// studies/cases/work_precision and studies/cases/robots, each solved by every method at every resolution and timed.
-// Some three minutes; with --quick one scene is timed.
+// studies/cases/work_precision and studies/cases/robots, each solved by every method at every resolution and timed; and
+// 1000 random scenes by two. Some six minutes; with --quick one scene is timed.
 #include "studies/study.h"
 
 #include "exact_reference/solve.h"
@@ -70,13 +70,15 @@ class WorkPrecision {
  public:
   explicit WorkPrecision(const StudyOptions& options)
       : options_(options),
-        data_{work_scenes(options.cases), {}, {}, {}},
-        progress_("work-precision", data_.scenes.size() + 2, options.progress) {}
+        data_{work_scenes(options.cases), {}, {}, {}, {}},
+        progress_("work-precision", data_.scenes.size() + 3, options.progress) {}
 
   void run() {
     for (WorkScene& scene : data_.scenes) solve_scene(scene);
     progress_.step("aims");
     data_.aims = measured_aims(options_);
+    progress_.step("random scenes");
+    data_.races = random_races(options_);
     progress_.step("instructions");
     if (!options_.quick) data_.counted = counted_solves(data_);
     write();
@@ -126,6 +128,7 @@ class WorkPrecision {
   void write() const {
     std::map<std::string, std::string> files = work_precision_tables(data_);
     files["timing_overview.svg"] = work_precision_picture(data_);
+    files["timing_random.svg"] = races_picture(data_.races);
     files["README.md"] = work_precision_page(data_, options_.pages / "work_precision/page.md");
     files[answers_file] = answers_json(work_precision_answers(data_));
     write_results(options_.output / "work_precision", "fam-studies work-precision", files);
