@@ -47,6 +47,15 @@ BasicMotion<T, D> tendon_step(Law law, const BasicArcConstants<D>& arc, const Ar
     collapsed = collapsed || section.collapsed();
     return motion;
   };
+  if constexpr (std::is_same_v<T, double>) {
+    // What nothing but its tendons loads has one strain.
+    if (!forces && wrench.force_N.isZero(0) && wrench.moment_Nmm.isZero(0)) {
+      return visit_section<with_shear, T>(arc, [&](auto& section) {
+        screw = section.strain(wrench);
+        return collapsing(exponential(screw), section);
+      });
+    }
+  }
 #ifdef FAM_HAS_AVX2_UNIT
   if constexpr (D == 3) {
     if (unit == VectorUnit::avx2 && law == Law::sixth_order && arc.tendons.size() == 1) {
