@@ -82,9 +82,14 @@ FAM_FLATTEN void BasicMarch<D>::run_law() {
       });
       return;
     }
-    const ElasticSection<with_shear, double, D> section(span.constants);
-    for_arcs(span, wrench, distal_wrenches_S_,
-             [&](std::size_t arc, auto& w) { motions_[arc] = CoupledLaw::step(section, forces, w, arcs_[arc].screw); });
+    for_arcs(span, wrench, distal_wrenches_S_, [&](std::size_t arc, auto& w) {
+      BasicScrew<double, D>& screw = arcs_[arc].screw;
+      if constexpr (D == 3) {
+        motions_[arc] = elastic_step<with_shear>(law_, span.constants, forces, w, screw);
+      } else {
+        motions_[arc] = CoupledLaw::step(ElasticSection<with_shear, double, D>(span.constants), forces, w, screw);
+      }
+    });
   });
   place_arcs();
 }
