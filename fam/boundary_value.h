@@ -60,6 +60,7 @@ class BasicBoundaryValue {
     if (!stability_) stability_ = growth_.judge(shooting_);
     return *stability_;
   }
+  // That the loads leave, of a planar rod in its plane.
   bool one_equilibrium() const { return shooting_.one_equilibrium() || shooting_.moments_are_known(); }
   // Whether the loads are too small for a second equilibrium, so that the one found is stable, or the rod was seen to
   // stay stable as they grew.

@@ -104,9 +104,7 @@ int Engine::newton_steps() const {
 }
 bool Engine::has_one_solution() const {
   return is_march_ ||
-         visit([](const auto& s) {
-           return of_boundary_value(s, [](const auto& problem) { return static_cast<int>(problem.one_equilibrium()); });
-         }) != 0;
+         visit([](const auto& s) { return of_boundary_value(s, [](const auto& p) { return p.one_equilibrium(); }); });
 }
 bool Engine::way_was_smooth() const {
   return visit([](const auto& s) { return of_boundary_value(s, [](const auto& p) { return p.way_was_smooth(); }); });

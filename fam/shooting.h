@@ -233,8 +233,8 @@ class Shooting {
   // The residuals of all segments and, unless the factors are to be kept, their derivatives, factorised. False: not
   // finite, or singular.
   bool evaluate_system(bool keep_factors, bool& mismatches_are_small);
-  // keep_slope, keep_factors: the derivatives at hand serve for the first step, after which a second one would be as
-  // much smaller as said, no rigid rod's.
+  // keep_slope, keep_factors: the derivatives at hand serve for the first step. first_shrinkage: what a second step with
+  // them would be of it, a tenth with a near solution's.
   bool newton_one_segment(bool keep_slope, double tolerance, const OnTheWay* way = nullptr,
                           double first_shrinkage = 0.1);
   bool newton_segments(bool keep_factors, double tolerance, const OnTheWay* way = nullptr);

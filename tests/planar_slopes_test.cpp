@@ -142,6 +142,37 @@ void expect_same_step(const PlanarArc& arc, const fam::ArcForces<double, 3>* for
 }
 
 // With 300 N half of the sections with shear are beyond Newton's method alone; most of those have no strain at all.
+template <std::size_t terms>
+void expect_same_part(const PlanarArc& arc, const fam::ArcForces<double, 3>* forces, double part) {
+  const auto series = fam::elastic_series<true, terms>(arc.constants, forces, arc.wrench, fam::VectorUnit::portable);
+  fam::SectionWrench narrow = arc.wrench, wide = arc.wrench;
+  const fam::RigidMotion a = fam::step_of_part<true>(series, part, narrow, fam::VectorUnit::portable);
+  const fam::RigidMotion b = fam::step_of_part<true>(series, part, wide, fam::widest_unit());
+  EXPECT_LE((b.position_mm - a.position_mm).norm(), 1e-13 * a.position_mm.norm());
+  EXPECT_LE((b.rotation - a.rotation).norm(), 1e-13 * a.rotation.norm());
+  EXPECT_LE((wide.moment_Nmm - narrow.moment_Nmm).norm(), 1e-13 * narrow.moment_Nmm.norm());
+  // Of the whole the arc itself, of none nothing.
+  fam::SectionWrench wrench = arc.wrench;
+  fam::Screw screw;
+  const fam::RigidMotion whole =
+      fam::elastic_step<true>(fam::Law::sixth_order, arc.constants, forces, wrench, screw, fam::VectorUnit::portable);
+  EXPECT_EQ((a.position_mm - whole.position_mm).norm() < 1e-13 * whole.position_mm.norm(), part == 1);
+}
+
+TEST(ArcSteps, PartsOfEveryVectorUnitAreTheSame) {
+  std::mt19937 random(10);
+  for (int i = 0; i < 50; ++i) {
+    PlanarArc arc = random_arc(random);
+    arc.wrench.force_N[2] = 5;
+    arc.wrench.moment_Nmm[0] = 50;
+    arc.forces.fixed_D_N[2] = 1;
+    for (const double part : {0.3, 1.}) {
+      expect_same_part<6>(arc, nullptr, part);
+      expect_same_part<7>(arc, &arc.forces, part);
+    }
+  }
+}
+
 TEST(ArcSteps, OfEveryVectorUnitAreTheSame) {
   std::mt19937 random(9);
   for (const double tension_N : {0., 3., 300.}) {

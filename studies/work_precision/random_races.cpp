@@ -191,8 +191,8 @@ std::string races_answer(const std::vector<RandomRace>& races) {
 }
 
 std::string races_table(const std::vector<RandomRace>& races) {
-  Table table({"kind", "scenes", "FAM right", "shooting right", "its time over FAM's, 1e-3 L", "below 0.8", "1e-5 L",
-               "below 0.8"});
+  Table table({"kind", "judged scenes", "FAM right, 1e-3 L", "shooting right", "its time over FAM's, 1e-3 L",
+               "below 0.8", "1e-5 L", "below 0.8"});
   std::vector<std::string> list = kinds(races);
   std::sort(list.begin(), list.end());
   for (const std::string& kind : list) {
