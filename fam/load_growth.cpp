@@ -33,7 +33,6 @@ constexpr double most_bent_share = 3;
 // Of an arc in the shape to be judged. With no limit 5 of those strips are said to be stable by arcs too few to tell,
 // with 2 in its place one.
 constexpr double most_swing_rad = 1;
-constexpr double guess_margin = 2;            // for the march that Newton starts from; chosen, not measured
 constexpr double smallest_load_step = 1e-12;  // over the load reached: a column pushed aside by 1e-12 EI/L^2 needs it
 constexpr double smallest_bifurcation_step = 1e-5;  // of the load; chosen, not measured
 constexpr double load_step_tolerance = 1e-6;        // of Newton on the way to the full load, where the last is tighter
@@ -45,15 +44,6 @@ constexpr double tangent_difference = 1e-3;         // of loads, over the step; 
 // scene 99989, a coil, end in work_limit. Below the least it is what load_step_tolerance makes of a tangent.
 constexpr double most_missed_share = 0.1, least_missed_rad = load_step_tolerance / tangent_difference;
 constexpr int most_passes = 100;  // of the rod's arcs, within the work limit; chosen, not measured
-
-// The shape that the last march met, its arcs short enough to show conjugate points; margin: of both limits.
-template <int D>
-bool is_hardly_bent(const Shooting<D>& shooting, double margin) {
-  if (!(shooting.bending_rad() * shooting.bounds().unique_share_in_space <= margin * most_bent_share)) return false;
-  const std::span<const BasicArc<D>> arcs = shooting.marched().arcs;
-  const LoadedRod<D>& rod = shooting.rod();
-  return largest_swing_in_space_rad(rod.way().to, rod.arcs_per_span(), arcs) <= margin * most_swing_rad;
-}
 
 // R_B,b = R_B,a exp(turn): base axes in the section turn back.
 template <int D>
@@ -265,12 +255,15 @@ scene::Status LoadGrowth<D>::solve_known_moments(Shooting<D>& shooting) {
 // of loads with an energy is asked of all: no conjugate point between the tip and the clamp.
 template <int D>
 bool LoadGrowth<D>::ends_beside_rest(Shooting<D>& shooting) {
-  shooting.start_from_clamp();
-  if (!is_hardly_bent(shooting, guess_margin)) return false;
+  const double most_bending_rad = most_bent_share / shooting.bounds().unique_share_in_space;
+  if (!(shooting.start_from_clamp() <= most_bending_rad)) return false;
   const OnTheWay way{shooting.determinant_at_rest(), leading_turn_rad};
   if (!shooting.newton(shooting.newton_tolerance(), &way)) return false;
-  shooting.march_all();
-  if (!is_hardly_bent(shooting, 1) || is_unstable(shooting)) return false;
+  if (!(shooting.bending_rad() <= most_bending_rad)) return false;
+  const LoadedRod<D>& rod = shooting.rod();
+  const std::span<const BasicArc<D>> arcs = shooting.marched().arcs;
+  if (!(largest_swing_in_space_rad(rod.way().to, rod.arcs_per_span(), arcs) <= most_swing_rad)) return false;
+  if (is_unstable(shooting)) return false;
   start_determinant_ = way.start;
   watches_determinant_ = true;
   was_smooth_ = !scene::has_fallen(way.start, shooting.determinant());

@@ -164,13 +164,13 @@ void Shooting<D>::march_all() {
 }
 
 template <int D>
-double Shooting<D>::bending_rad() const {
+double Shooting<D>::bending_rad() {
+  march_all();
   double sum = 0;
   for (std::size_t i = 0; i < rod_.span_arcs().size(); ++i) {
     const SpanArcs<D>& span = rod_.span_arcs()[i];
-    const Angular<double, D> rest = span.constants.length_mm * angular_part<D>(rod_.way().to[i].rest_curvature_per_mm);
     for (int arc = span.first_arc; arc < span.end_arc; ++arc)
-      sum += (marched_.arcs[static_cast<std::size_t>(arc)].screw.rotation - rest).norm();
+      sum += bending_rad(i, marched_.arcs[static_cast<std::size_t>(arc)].screw.rotation);
   }
   return sum;
 }
