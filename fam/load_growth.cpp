@@ -25,14 +25,6 @@ constexpr double most_unled_share = 0.6, least_unled_rad = 1e-4;
 // Of the surprise allowed: a Newton step beyond ends the attempt. With 1 a rod of survivors_branch_test.cpp takes three
 // load steps more, since the steps after the first may turn back.
 constexpr double hopeless_turns = 2;
-// Of the bending in rad, times the share of what leaves one equilibrium: of 115 313 columns, strips, arches, rods under
-// couples and random scenes drawn for it 13 793 end so beside their rest shape, and none elsewhere than grown loads
-// lead; nor of couples with 8, but five with 50. By turns of segment ends up to 0.5 rad, whatever the loads, 4 of 5500
-// do.
-constexpr double most_bent_share = 3;
-// Of an arc in the shape to be judged. With no limit 5 of those strips are said to be stable by arcs too few to tell,
-// with 2 in its place one.
-constexpr double most_swing_rad = 1;
 constexpr double smallest_load_step = 1e-12;  // over the load reached: a column pushed aside by 1e-12 EI/L^2 needs it
 constexpr double smallest_bifurcation_step = 1e-5;  // of the load; chosen, not measured
 constexpr double load_step_tolerance = 1e-6;        // of Newton on the way to the full load, where the last is tighter
@@ -58,6 +50,7 @@ void LoadGrowth<D>::set(const Shooting<D>& shooting) {
   for (Nodes* nodes : {&start_, &guess_, &previous_, &earlier_}) nodes->resize(shooting.nodes().size());
   for (Tangent* tangent : {&tangent_, &next_tangent_}) tangent->resize(shooting.nodes().size());
   watches_stability_ = scene::is_conservative(shooting.rod().way().bounds);
+  if (!watches_stability_) return;
   judge_.reserve({shooting.nodes().size(), shooting.rod().way().to.size(), most_tendons(shooting.rod().way().to)});
   judge_.set(shooting.rod());
 }
@@ -234,7 +227,6 @@ scene::Status LoadGrowth<D>::run(Shooting<D>& shooting) {
   const bool is_known =
       shooting.one_equilibrium() || scene::symmetry_of(shooting.rod().way().to) == scene::Symmetry::axis;
   if (is_known && shooting.solve_at_once()) return scene::Status::converged;
-  if (ends_beside_rest(shooting)) return scene::Status::converged;
   load_steps_ = 0;
   shooting.start_unloaded();
   const LoadBounds& bounds = shooting.bounds();
@@ -248,26 +240,6 @@ scene::Status LoadGrowth<D>::solve_known_moments(Shooting<D>& shooting) {
   load_factor_ = 1;
   const bool solved = shooting.solve_known_moments();
   return end_.status = solved ? scene::Status::converged : scene::Status::arc_not_converged;
-}
-
-// Between a rest shape and one that is hardly bent the second variation is all but linear in the loads, so that one
-// that is positive at both ends is so all the way: the branch reaches the other end, and is alone there. What is asked
-// of loads with an energy is asked of all: no conjugate point between the tip and the clamp.
-template <int D>
-bool LoadGrowth<D>::ends_beside_rest(Shooting<D>& shooting) {
-  const double most_bending_rad = most_bent_share / shooting.bounds().unique_share_in_space;
-  if (!(shooting.start_from_clamp() <= most_bending_rad)) return false;
-  const OnTheWay way{shooting.determinant_at_rest(), leading_turn_rad};
-  if (!shooting.newton(shooting.newton_tolerance(), &way)) return false;
-  if (!(shooting.bending_rad() <= most_bending_rad)) return false;
-  const LoadedRod<D>& rod = shooting.rod();
-  const std::span<const BasicArc<D>> arcs = shooting.marched().arcs;
-  if (!(largest_swing_in_space_rad(rod.way().to, rod.arcs_per_span(), arcs) <= most_swing_rad)) return false;
-  if (is_unstable(shooting)) return false;
-  start_determinant_ = way.start;
-  watches_determinant_ = true;
-  was_smooth_ = !scene::has_fallen(way.start, shooting.determinant());
-  return true;
 }
 
 // A fold is where steps lead nowhere and the determinant has all but vanished.

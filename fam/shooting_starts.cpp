@@ -68,18 +68,17 @@ void Shooting<D>::start_unloaded() {
 
 // Shear and stretch are left out.
 template <int D>
-typename Shooting<D>::OutwardMarch Shooting<D>::march_outwards(const BasicWrench<double, D>* clamp) {
+BasicWrench<double, D> Shooting<D>::march_outwards(const BasicWrench<double, D>* clamp) {
   Node at{Rotation::Identity(), clamp ? *clamp : BasicWrench<double, D>{}};
   Vector<double, D> position_B_mm = Vector<double, D>::Zero();
-  OutwardMarch bent;
+  BasicWrench<double, D> loads_B;  // about the clamp
   const auto meet = [&](const BasicWrench<double, D>& load_S, const Vector<double, D>& where_B_mm) {
     const Vector<double, D> force_N = at.rotation_SB.transpose() * load_S.force_N;
-    bent.loads_B.force_N += force_N;
-    bent.loads_B.moment_Nmm += arm_cross(where_B_mm, force_N) + turned_back(at.rotation_SB, load_S.moment_Nmm);
+    loads_B.force_N += force_N;
+    loads_B.moment_Nmm += arm_cross(where_B_mm, force_N) + turned_back(at.rotation_SB, load_S.moment_Nmm);
   };
   std::size_t segment = 0;
-  for (std::size_t i = 0; i < rod_.span_arcs().size(); ++i) {
-    const SpanArcs<D>& span = rod_.span_arcs()[i];
+  for (const SpanArcs<D>& span : rod_.span_arcs()) {
     const BasicArcConstants<D> back = backwards(span.constants);
     for (int arc = span.first_arc; arc < span.end_arc; ++arc) {
       const ArcForces<double, D> forces = span.forces(at.rotation_SB);
@@ -88,7 +87,6 @@ typename Shooting<D>::OutwardMarch Shooting<D>::march_outwards(const BasicWrench
       const BasicMotion<double, D> motion =
           clamp ? elastic_arc(rod_.law(), back, span.distributed ? &against : nullptr, at.wrench, screw)
                 : exponential(screw);
-      bent.bending_rad += bending_rad(i, -screw.rotation);
       for (int axis = 0; axis < D; ++axis)
         at.rotation_SB.col(axis) = motion.rotate(Vector<double, D>(at.rotation_SB.col(axis)));
       const Vector<double, D> way_B_mm = -(at.rotation_SB.transpose() * motion.position_mm);
@@ -104,19 +102,19 @@ typename Shooting<D>::OutwardMarch Shooting<D>::march_outwards(const BasicWrench
     }
   }
   nodes_.back().wrench = {};
-  return bent;
+  return loads_B;
 }
 
 template <int D>
-double Shooting<D>::start_from_clamp() {
+void Shooting<D>::start_from_clamp() {
   set_load(1);
-  BasicWrench<double, D> clamp = march_outwards(nullptr).loads_B;
-  const OutwardMarch bent = march_outwards(&clamp);
-  const Angular<double, D> change_Nmm = bent.loads_B.moment_Nmm - clamp.moment_Nmm;
+  BasicWrench<double, D> clamp = march_outwards(nullptr);
+  const BasicWrench<double, D> bent = march_outwards(&clamp);
+  const Angular<double, D> change_Nmm = bent.moment_Nmm - clamp.moment_Nmm;
   const double share = change_Nmm.dot(clamp.moment_Nmm) / clamp.moment_Nmm.squaredNorm();
-  if (!(std::abs(share) > 1e-3 && share < 0.5)) return bent.bending_rad;
+  if (!(std::abs(share) > 1e-3 && share < 0.5)) return;
   clamp.moment_Nmm += 1 / (1 - share) * change_Nmm;
-  return march_outwards(&clamp).bending_rad;
+  march_outwards(&clamp);
 }
 
 template <int D>
@@ -197,8 +195,8 @@ bool Shooting<D>::solve_from(const Shooting& fewer) {
 
 template void Shooting<2>::start_unloaded();
 template void Shooting<3>::start_unloaded();
-template double Shooting<2>::start_from_clamp();
-template double Shooting<3>::start_from_clamp();
+template void Shooting<2>::start_from_clamp();
+template void Shooting<3>::start_from_clamp();
 template bool Shooting<2>::solve_known_moments();
 template bool Shooting<3>::solve_known_moments();
 template bool Shooting<2>::solve_at_once();

@@ -144,36 +144,6 @@ TEST(SurvivorsFam, CouplesOffTheCentreline) {
   }
 }
 
-// Where the full load ends beside the rest shape no load is grown: a strip under half of Prandtl's load across it, of
-// which an eighth would leave it one equilibrium for sure.
-TEST(SurvivorsFam, HardlyBentIsSolvedAtOnce) {
-  const double prandtl_N = 4.0126 * std::sqrt(0.01);
-  const Scene strip = uniform_rod(1, {1, {0.01, 1}, {}, {}, 0}, {Force{1, Frame::fixed, {0, prandtl_N / 2, 1e-4}}});
-  const Equilibrium answer = by_fam(strip, 1e-5);
-  EXPECT_EQ(fact<int>(answer, "load_steps"), 1);
-  EXPECT_EQ(answer.stable, true);
-  EXPECT_LT((tip(answer) - tip(by_exact(strip))).norm(), 1e-5);
-  EXPECT_GT((tip(by_fam(support::stiffer(strip), 1e-6)) - tip(by_exact(strip))).norm(), 1e-4);
-}
-// An equilibrium beside the rest shape or not far from it without a conjugate point, but not that of the branch: under
-// a couple whose tip lies along the clamp, not so what is between; under a load so large that a turn of 0.4 rad makes a
-// strip taut which buckles on the way; and where three arcs see no conjugate point of three.
-TEST(SurvivorsFam, HardlyBentIsNotEnough) {
-  Scene folded = uniform_rod(100, {500, {535.801685, 526.283921}, {}, {}, 0}, {});
-  const Vector3d force_N(-6.0291199, 1.78168871, 1.13652915);
-  for (const Load& load : couple(84.0298953, force_N, {3.17912061, -0.320791256})) folded.loads.push_back(load);
-  Scene taut = uniform_rod(100, {56.6506672, {64.1719665, 1000}, {}, {}, 0},
-                           {Force{100, Frame::fixed, {0, 0.112645178, 6.31993009e-8}}});
-  taut.sections[0].rest_curvature_per_mm = {0, 0, 0.00536351555};
-  const Scene unseen = uniform_rod(100, {0.227515814, {0.239002551, 1000}, {}, {}, 0},
-                                   {Force{100, Frame::fixed, {0, 0.000455058589, 5.17507887e-11}}});
-  for (const Scene& rod : {folded, taut, unseen}) {
-    const Vector3d exact_mm = tip(by_exact(rod));
-    EXPECT_LT((tip(by_fam(rod, 1e-2)) - exact_mm).norm(), 1e-2);
-    EXPECT_GT((tip(by_fam(support::stiffer(rod), 1e-2)) - exact_mm).norm(), 0.1);
-  }
-}
-
 // A rod of twelve sections under moments, which has another equilibrium 0.05 L away: Newton's steps of 0.12 and 0.17
 // rad led there within the surprise allowed, the determinant far from zero.
 TEST(SurvivorsFam, NewtonThatDoesNotContract) {
