@@ -144,6 +144,26 @@ TEST(SurvivorsFam, CouplesOffTheCentreline) {
   }
 }
 
+// Equilibria without a conjugate point, as few arcs see it, beside the rest shape or not far from it, to which the full
+// load leads at once, but not those of the branch: under a couple whose tip lies along the clamp, not so what is
+// between; under a load so large that a turn of 0.4 rad makes a strip taut which buckles on the way; and where three
+// arcs do not see the strip's three conjugate points.
+TEST(SurvivorsFam, NotTheEquilibriumBesideTheRestShape) {
+  Scene folded = uniform_rod(100, {500, {535.801685, 526.283921}, {}, {}, 0}, {});
+  const Vector3d force_N(-6.0291199, 1.78168871, 1.13652915);
+  for (const Load& load : couple(84.0298953, force_N, {3.17912061, -0.320791256})) folded.loads.push_back(load);
+  Scene taut = uniform_rod(100, {56.6506672, {64.1719665, 1000}, {}, {}, 0},
+                           {Force{100, Frame::fixed, {0, 0.112645178, 6.31993009e-8}}});
+  taut.sections[0].rest_curvature_per_mm = {0, 0, 0.00536351555};
+  const Scene unseen = uniform_rod(100, {0.227515814, {0.239002551, 1000}, {}, {}, 0},
+                                   {Force{100, Frame::fixed, {0, 0.000455058589, 5.17507887e-11}}});
+  for (const Scene& rod : {folded, taut, unseen}) {
+    const Vector3d exact_mm = tip(by_exact(rod));
+    EXPECT_LT((tip(by_fam(rod, 1e-2)) - exact_mm).norm(), 1e-2);
+    EXPECT_GT((tip(by_fam(support::stiffer(rod), 1e-2)) - exact_mm).norm(), 0.1);
+  }
+}
+
 // A rod of twelve sections under moments, which has another equilibrium 0.05 L away: Newton's steps of 0.12 and 0.17
 // rad led there within the surprise allowed, the determinant far from zero.
 TEST(SurvivorsFam, NewtonThatDoesNotContract) {
