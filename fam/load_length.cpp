@@ -136,6 +136,22 @@ double largest_swing_rad(std::span<const Span> spans, std::span<const int> arcs_
 }
 
 template <int D>
+double largest_swing_in_space_rad(std::span<const Span> spans, std::span<const int> arcs_per_span,
+                                  std::span<const BasicArc<D>> arcs) {
+  auto arc = arcs.begin();
+  double largest = 0;
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    const double length_mm = spans[i].length_mm() / arcs_per_span[i];
+    for (int k = 0; k < arcs_per_span[i]; ++k, ++arc) {
+      Vector3d turn = Vector3d::Zero();
+      turn.tail<rotations_of(D)>() = arc->screw.rotation;
+      largest = std::max(largest, length_mm * ArcMoment(spans[i], turn / length_mm).rate_per_mm());
+    }
+  }
+  return largest;
+}
+
+template <int D>
 double series_error_over_L(std::span<const Span> spans, std::span<const int> arcs_per_span,
                            std::span<const BasicArc<D>> arcs) {
   double left_out = 0, length = 0;
@@ -160,6 +176,8 @@ double series_error_over_L(std::span<const Span> spans, std::span<const int> arc
 
 template double series_error_over_L(std::span<const Span>, std::span<const int>, std::span<const BasicArc<2>>);
 template double series_error_over_L(std::span<const Span>, std::span<const int>, std::span<const BasicArc<3>>);
+template double largest_swing_in_space_rad(std::span<const Span>, std::span<const int>, std::span<const BasicArc<2>>);
+template double largest_swing_in_space_rad(std::span<const Span>, std::span<const int>, std::span<const BasicArc<3>>);
 template double largest_swing_rad(std::span<const Span>, std::span<const int>, std::span<const BasicArc<2>>);
 template double largest_swing_rad(std::span<const Span>, std::span<const int>, std::span<const BasicArc<3>>);
 

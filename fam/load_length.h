@@ -147,6 +147,11 @@ template <int D>
 double largest_swing_rad(std::span<const scene::Span> spans, std::span<const int> arcs_per_span,
                          std::span<const BasicArc<D>> arcs);
 
+// The same of small motions in space about the solved arcs, of planar rods, too: how far they are from being resolved.
+template <int D>
+double largest_swing_in_space_rad(std::span<const scene::Span> spans, std::span<const int> arcs_per_span,
+                                  std::span<const BasicArc<D>> arcs);
+
 // What the series of sixth order leave out of a solved shape, over its length, at most: the sum over the arcs of
 // x^7 + q x^4, times series_share and 1 + (sum x)^2 for what becomes of it along the rod. x is the largest of an arc's
 // load length, turn, swing and the root of what its strain turns by as the moment does (|m x k| h^2 over the least

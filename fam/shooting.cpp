@@ -163,6 +163,18 @@ void Shooting<D>::march_all() {
   marched_is_of_nodes_ = true;
 }
 
+template <int D>
+double Shooting<D>::bending_rad() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < rod_.span_arcs().size(); ++i) {
+    const SpanArcs<D>& span = rod_.span_arcs()[i];
+    const Angular<double, D> rest = span.constants.length_mm * angular_part<D>(rod_.way().to[i].rest_curvature_per_mm);
+    for (int arc = span.first_arc; arc < span.end_arc; ++arc)
+      sum += (marched_.arcs[static_cast<std::size_t>(arc)].screw.rotation - rest).norm();
+  }
+  return sum;
+}
+
 bool Contraction::is_lost(const OnTheWay& way, double turn_rad, bool fresh) {
   const bool falls = turn_rad <= std::max(last_turn_rad_ / 2, least_straying_rad);
   const bool strays = fresh && last_was_fresh_ && !falls && !way.near_critical;

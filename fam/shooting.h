@@ -148,8 +148,8 @@ class Shooting {
   void start_unloaded();
   // The full load, and the shape that a march from the clamp leads to under the wrench that the loads would leave there
   // if the rod kept its rest shape: the same arcs with a negative length. Where the moments are known beforehand it is
-  // off by no more than the law is.
-  void start_from_clamp();
+  // off by no more than the law is. Returns the share of the clamp's moment that the loads on this shape do not bear.
+  double start_from_clamp();
   // From there. False, too: the march back misses a segment's end by more than a quarter turn, the arcs are too long.
   bool solve_known_moments();
   // From the shape that the rod had, at the start of the way: state_at(arc) at an arc's distal end, without the point
@@ -176,6 +176,8 @@ class Shooting {
 
   // Of the equations' derivatives, after newton(): as that left them, or at the solution.
   scene::Determinant determinant() const;
+  // Of the rest shape without load: of size 1.
+  scene::Determinant determinant_at_rest() const { return {0, segments_.size() % 2 == 1}; }
   scene::Determinant exact_determinant();
   // scene::Determinant::log_growth, of the nodes as they are.
   double log_growth() const;
@@ -188,6 +190,9 @@ class Shooting {
   // ended with it.
   const MarchedArcs<D>& marched() const { return marched_; }
   void march_all();
+  // Of the arcs that the last march or the one from the clamp met: the changes of curvature from the rest shape, summed
+  // along the rod. No section has turned by more.
+  double bending_rad() const;
   // How the nodes change with the load factor after newton(): one more step with the derivatives that it left, at loads
   // by this much larger, over that.
   void set_load_tangent(double difference, std::vector<Fields<D, 1>>& tangent);
@@ -233,8 +238,8 @@ class Shooting {
   // The residuals of all segments and, unless the factors are to be kept, their derivatives, factorised. False: not
   // finite, or singular.
   bool evaluate_system(bool keep_factors, bool& mismatches_are_small);
-  // keep_slope, keep_factors: the derivatives at hand serve for the first step. first_shrinkage: what a second step with
-  // them would be of it, a tenth with a near solution's.
+  // keep_slope, keep_factors: the derivatives at hand serve for the first step. first_shrinkage: what a second step
+  // with them would be of it, a tenth with a near solution's.
   bool newton_one_segment(bool keep_slope, double tolerance, const OnTheWay* way = nullptr,
                           double first_shrinkage = 0.1);
   bool newton_segments(bool keep_factors, double tolerance, const OnTheWay* way = nullptr);

@@ -87,6 +87,7 @@ BasicWrench<double, D> Shooting<D>::march_outwards(const BasicWrench<double, D>*
       const BasicMotion<double, D> motion =
           clamp ? elastic_arc(rod_.law(), back, span.distributed ? &against : nullptr, at.wrench, screw)
                 : exponential(screw);
+      marched_.arcs[static_cast<std::size_t>(arc)].screw.rotation = -screw.rotation;
       for (int axis = 0; axis < D; ++axis)
         at.rotation_SB.col(axis) = motion.rotate(Vector<double, D>(at.rotation_SB.col(axis)));
       const Vector<double, D> way_B_mm = -(at.rotation_SB.transpose() * motion.position_mm);
@@ -106,15 +107,17 @@ BasicWrench<double, D> Shooting<D>::march_outwards(const BasicWrench<double, D>*
 }
 
 template <int D>
-void Shooting<D>::start_from_clamp() {
+double Shooting<D>::start_from_clamp() {
   set_load(1);
   BasicWrench<double, D> clamp = march_outwards(nullptr);
-  const BasicWrench<double, D> bent = march_outwards(&clamp);
-  const Angular<double, D> change_Nmm = bent.moment_Nmm - clamp.moment_Nmm;
-  const double share = change_Nmm.dot(clamp.moment_Nmm) / clamp.moment_Nmm.squaredNorm();
-  if (!(std::abs(share) > 1e-3 && share < 0.5)) return;
-  clamp.moment_Nmm += 1 / (1 - share) * change_Nmm;
-  march_outwards(&clamp);
+  const auto missed_Nmm = [&] { return Angular<double, D>(march_outwards(&clamp).moment_Nmm - clamp.moment_Nmm); };
+  Angular<double, D> missed = missed_Nmm();
+  const double share = missed.dot(clamp.moment_Nmm) / clamp.moment_Nmm.squaredNorm();
+  if (std::abs(share) > 1e-3 && share < 0.5) {
+    clamp.moment_Nmm += 1 / (1 - share) * missed;
+    missed = missed_Nmm();
+  }
+  return missed.isZero(0) ? 0 : missed.norm() / clamp.moment_Nmm.norm();
 }
 
 template <int D>
@@ -195,8 +198,8 @@ bool Shooting<D>::solve_from(const Shooting& fewer) {
 
 template void Shooting<2>::start_unloaded();
 template void Shooting<3>::start_unloaded();
-template void Shooting<2>::start_from_clamp();
-template void Shooting<3>::start_from_clamp();
+template double Shooting<2>::start_from_clamp();
+template double Shooting<3>::start_from_clamp();
 template bool Shooting<2>::solve_known_moments();
 template bool Shooting<3>::solve_known_moments();
 template bool Shooting<2>::solve_at_once();

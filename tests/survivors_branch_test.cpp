@@ -144,10 +144,23 @@ TEST(SurvivorsFam, CouplesOffTheCentreline) {
   }
 }
 
+// Where the full load ends beside the rest shape no load is grown: a strip under half of Prandtl's load across it, of
+// which an eighth would leave it one equilibrium for sure.
+TEST(SurvivorsFam, HardlyBentIsSolvedAtOnce) {
+  const double prandtl_N = 4.0126 * std::sqrt(0.01);
+  const Scene strip = uniform_rod(1, {1, {0.01, 1}, {}, {}, 0}, {Force{1, Frame::fixed, {0, prandtl_N / 2, 1e-4}}});
+  const Equilibrium answer = by_fam(strip, 1e-5);
+  EXPECT_EQ(fact<int>(answer, "load_steps"), 1);
+  EXPECT_EQ(answer.stable, true);
+  EXPECT_LT((tip(answer) - tip(by_exact(strip))).norm(), 1e-5);
+  EXPECT_GT((tip(by_fam(support::stiffer(strip), 1e-6)) - tip(by_exact(strip))).norm(), 1e-4);
+}
+
 // Equilibria without a conjugate point, as few arcs see it, beside the rest shape or not far from it, to which the full
 // load leads at once, but not those of the branch: under a couple whose tip lies along the clamp, not so what is
-// between; under a load so large that a turn of 0.4 rad makes a strip taut which buckles on the way; and where three
-// arcs do not see the strip's three conjugate points.
+// between; under a load so large that a turn of 0.4 rad makes a strip taut which buckles on the way; where three arcs
+// do not see the strip's three conjugate points; and under a following load, with which a strip is critical twice on
+// the way.
 TEST(SurvivorsFam, NotTheEquilibriumBesideTheRestShape) {
   Scene folded = uniform_rod(100, {500, {535.801685, 526.283921}, {}, {}, 0}, {});
   const Vector3d force_N(-6.0291199, 1.78168871, 1.13652915);
@@ -157,7 +170,11 @@ TEST(SurvivorsFam, NotTheEquilibriumBesideTheRestShape) {
   taut.sections[0].rest_curvature_per_mm = {0, 0, 0.00536351555};
   const Scene unseen = uniform_rod(100, {0.227515814, {0.239002551, 1000}, {}, {}, 0},
                                    {Force{100, Frame::fixed, {0, 0.000455058589, 5.17507887e-11}}});
-  for (const Scene& rod : {folded, taut, unseen}) {
+  const Scene twice_critical =
+      uniform_rod(100, {0.714163454, {0.867193708, 1000}, {}, {}, 0},
+                  {Force{100, Frame::follower, {3.59885861e-05, 0.000470005672, 1.77510579e-07}},
+                   Force{71.8515993, Frame::fixed, {0, 0.0012111415, 0}}});
+  for (const Scene& rod : {folded, taut, unseen, twice_critical}) {
     const Vector3d exact_mm = tip(by_exact(rod));
     EXPECT_LT((tip(by_fam(rod, 1e-2)) - exact_mm).norm(), 1e-2);
     EXPECT_GT((tip(by_fam(support::stiffer(rod), 1e-2)) - exact_mm).norm(), 0.1);
