@@ -261,9 +261,9 @@ scene::Status LoadGrowth<D>::solve_known_moments(Shooting<D>& shooting) {
 }
 
 // Between a rest shape and one that is hardly bent the second variation is all but linear in the loads, so that one
-// that is positive at both ends is so all the way: the branch reaches the other end, and is alone there. Of loads
-// without an energy the determinant can vanish twice on the way: of 26 809 strips under following loads 3 end
-// elsewhere.
+// that is positive at both ends is so all the way: the branch reaches the other end, and is alone there. It is for
+// loads with an energy: with limits of 3 and 1 in the place of those above 3 of 26 809 strips under following loads end
+// elsewhere, their determinants at the end no sign of it.
 template <int D>
 bool LoadGrowth<D>::ends_beside_rest(Shooting<D>& shooting) {
   const double missed_share = shooting.start_from_clamp();

@@ -76,7 +76,7 @@ class LoadGrowth {
   void forget_way();
   scene::Status solve_known_moments(Shooting<D>& shooting);
   // The full load at once, from the march from the clamp, to a shape so near to the rest shape that no critical point
-  // can be between them.
+  // is taken to lie between them. Only for loads with an energy.
   bool ends_beside_rest(Shooting<D>& shooting);
   // size: of the change of the loads; 1 is too little to make a straight rod critical. at_rest: from no load, where a
   // rod is stable.
