@@ -88,11 +88,11 @@ void set_gain(const MotionSlopes<D>& motion, const Changes3<V>& force, const Cha
 template <bool with_shear, int N>
 ArcVariation<N> vary_by_numbers(Law law, const BasicArcConstants<3>& arc, const ArcForces<double, 3>* forces,
                                 const SectionWrench& wrench, const ArcChange<N>& change) {
-  const DualSection<with_shear> section{arc, change.constant, change.tendon_arms};
   ArcVariation<N> result;
   result.slopes.setZero();
   for (int at = 0; at < N; at += 3) {
     const int three = std::min(at, N - 3);
+    const DualSection<with_shear> section{arc, three == N - 3 ? change.constant : Constant::none, change.tendon_arms};
     const auto varied = [three](const Vector3d& v, const Slopes3<N>& slopes) {
       return with_slopes(v, slopes.template middleCols<3>(three));
     };
@@ -281,6 +281,8 @@ template ArcVariation<6> vary_arc(Law, scene::RodModel, const BasicArcConstants<
                                   const SectionWrench&, const ArcChange<6>&, VectorUnit);
 template ArcVariation<8> vary_arc(Law, scene::RodModel, const BasicArcConstants<3>&, const ArcForces<double, 3>*,
                                   const SectionWrench&, const ArcChange<8>&, VectorUnit);
+template ArcVariation<12> vary_arc(Law, scene::RodModel, const BasicArcConstants<3>&, const ArcForces<double, 3>*,
+                                   const SectionWrench&, const ArcChange<12>&, VectorUnit);
 template ArcVariation<9> vary_arc(Law, scene::RodModel, const BasicArcConstants<3>&, const ArcForces<double, 3>*,
                                   const SectionWrench&, const ArcChange<9>&, VectorUnit);
 template ArcVariation<6> vary_planar_arc(scene::RodModel, const BasicArcConstants<3>&, const ArcForces<double, 3>*,

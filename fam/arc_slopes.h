@@ -19,7 +19,7 @@ template <int N>
 using Slopes3 = Eigen::Matrix<double, 3, N, Eigen::RowMajor>;
 
 // N changes of what an arc meets: the wrench at its distal end, its distributed forces (times h, as ArcForces), and of
-// its section either nothing, or (N = 3) its rest curvature, its stiffness (GJ, EI_y, EI_z), or the tensions of up to
+// its section either nothing, or in the last three its rest curvature, its stiffness (GJ, EI_y, EI_z), or the tensions of up to
 // three tendons (which need not be among the section's; one that is not given changes nothing).
 enum class Constant { none, rest_curvature, stiffness, tension };
 using TendonArms = std::array<std::optional<Vector3d>, 3>;  // mm
@@ -31,14 +31,15 @@ struct ArcChange {
   TendonArms tendon_arms{};
 };
 
-// One of each component of the wrench, six; N = 9: and of a fixed distributed force. N = 8: room for two of that.
+// One of each component of the wrench, six; N = 9: and of a fixed distributed force. N = 8: room for two of that, N = 12:
+// for three of a constant, too.
 template <int N>
 const ArcChange<N>& unit_changes() {
   static const ArcChange<N> changes = [] {
     ArcChange<N> change;
     change.force_N.template leftCols<3>().setIdentity();
     change.moment_Nmm.template middleCols<3>(3).setIdentity();
-    if constexpr (N == 9) change.fixed_D_N.template rightCols<3>().setIdentity();
+    if constexpr (N >= 9) change.fixed_D_N.template middleCols<3>(6).setIdentity();
     return change;
   }();
   return changes;
@@ -56,7 +57,7 @@ struct ArcVariation {
   Eigen::Matrix<double, 12, N> slopes;
 };
 
-// `distributed`: null without such forces. N: 3; 6 without, 8 and 9 with them.
+// `distributed`: null without such forces. N: 3; 6 without, 8, 9 and 12 with them.
 template <int N>
 ArcVariation<N> vary_arc(Law law, scene::RodModel model, const BasicArcConstants<3>& arc,
                          const ArcForces<double, 3>* distributed, const SectionWrench& wrench,

@@ -3,6 +3,8 @@
 
 #include "fam/screw.h"
 
+#include <array>
+
 namespace fam {
 
 // Two changes of a number, which every processor has registers for; four, for AVX2 and FMA.
@@ -83,14 +85,21 @@ Changes3<V> product(const Matrix& A, const Changes3<V>& b) {
   return {A(0, 0) * b.x + A(0, 1) * b.y + A(0, 2) * b.z, A(1, 0) * b.x + A(1, 1) * b.y + A(1, 2) * b.z,
           A(2, 0) * b.x + A(2, 1) * b.y + A(2, 2) * b.z};
 }
+// Of a matrix with these columns.
+template <class Column, class V>
+Changes3<V> product(const std::array<Column, 3>& A, const Changes3<V>& b) {
+  return {A[0][0] * b.x + A[1][0] * b.y + A[2][0] * b.z, A[0][1] * b.x + A[1][1] * b.y + A[2][1] * b.z,
+          A[0][2] * b.x + A[1][2] * b.y + A[2][2] * b.z};
+}
 
 template <class V>
 constexpr int width = sizeof(V) / sizeof(double);
-// As many columns as V is wide, from `first` on; beyond the last there are zeros.
+// As many columns as V is wide, from `first` on; before the first and beyond the last there are zeros.
 template <class V, class Slopes>
 [[gnu::always_inline]] inline Changes3<V> columns(const Slopes& from, int first) {
   Changes3<V> result{};
   for (int i = 0; i < width<V>; ++i) {
+    if (first + i < 0) continue;
     if (first + i >= from.cols()) break;
     result.x[i] = from(0, first + i);
     result.y[i] = from(1, first + i);

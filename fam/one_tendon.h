@@ -24,6 +24,33 @@ std::array<Eigen::Matrix<T, D, 1>, count> inverse_of_rows(const std::array<Eigen
   return columns;
 }
 
+// A vector of the same numbers, as V.
+template <class V, class From>
+V numbers(const From& vector) {
+  if constexpr (std::is_same_v<V, From>) return vector;
+  else return as<typename V::Scalar>(vector);
+}
+// Of a matrix with these columns.
+template <class V, class Column, std::size_t count>
+V product(const std::array<Column, count>& a, const V& x) {
+  V sum = numbers<V>(a[0]) * x[0];
+  for (std::size_t i = 1; i < count; ++i) sum += numbers<V>(a[i]) * x[static_cast<int>(i)];
+  return sum;
+}
+
+// A strain by TendonSection's search for the least energy.
+template <bool with_shear, class T, int D>
+BasicScrew<T, D> robust_strain(const BasicArcConstants<D>& arc, const BasicWrench<T, D>& wrench, bool& collapsed) {
+  if constexpr (std::is_same_v<T, Wide>) {
+    return wide(robust_strain<with_shear>(arc, narrow(wrench), collapsed));
+  } else {
+    TendonSection<with_shear, T, D> section(arc);
+    const BasicScrew<T, D> strain = section.strain(wrench);
+    collapsed = collapsed || section.collapsed();
+    return strain;
+  }
+}
+
 // The arc laws' `Section`, as TendonSection, which is asked where Newton's method alone does not find the strain.
 template <bool with_shear, class T, int D>
 class OneTendonSection {
@@ -50,14 +77,14 @@ class OneTendonSection {
     if constexpr (has_slopes) {  // one more step in T, whose derivatives are those of the solution
       Vector<double, D> found;
       for (int i = 0; i < D; ++i) found[i] = value_of(loose_t[i]);
-      if (!solve(found, inverse)) return robust_strain(wrench);
+      if (!solve(found, inverse)) return robust_strain<with_shear>(arc_, wrench, collapsed_);
       Vector<T, D> t = as<T>(found);
-      const Vector<T, D> miss = t + product<T>(give_, direction_of(t)) - loose_t;
-      t -= product<T>(inverse, miss);
+      const Vector<T, D> miss = t + product(give_, direction_of(t)) - loose_t;
+      t -= product(inverse, miss);
       return less_pull(loose, direction_of(t));
     } else {
       Vector<T, D> t = loose_t;
-      if (!solve(t, inverse)) return robust_strain(wrench);
+      if (!solve(t, inverse)) return robust_strain<with_shear>(arc_, wrench, collapsed_);
       return less_pull(loose, direction_of(t));
     }
   }
@@ -84,7 +111,7 @@ class OneTendonSection {
     known = (known - direction_[0] * length) * inverse_length_;
 
     const BasicScrew<T, D> loose = give<T>(moment_Nmm, force_N);
-    t_[k] = product<T>(inverse_, Vector<T, D>(tangent(loose) - product<T>(give_, known)));
+    t_[k] = product(inverse_, Vector<T, D>(tangent(loose) - product(give_, known)));
     const T along = direction_[0].dot(t_[k]);
     length_[k] = length + along;
     direction_[k] = known + (t_[k] - direction_[0] * along) * inverse_length_;
@@ -104,30 +131,6 @@ class OneTendonSection {
 
   const BasicTendon<D>& tendon() const { return arc_.tendons.front(); }
   static Vector<Value, D> unit(int axis) { return as<Value>(Vector<double, D>(Vector<double, D>::Unit(axis))); }
-  template <class Number, class Column>
-  static Vector<Number, D> numbers(const Column& values) {
-    if constexpr (std::is_same_v<Column, Vector<Number, D>>) return values;
-    else return as<Number>(values);
-  }
-  template <class Number, class Column>
-  static Vector<Number, D> product(const std::array<Column, D>& a, const Vector<Number, D>& x) {
-    Vector<Number, D> sum = numbers<Number>(a[0]) * x[0];
-    for (int i = 1; i < D; ++i) sum += numbers<Number>(a[static_cast<std::size_t>(i)]) * x[i];
-    return sum;
-  }
-  BasicScrew<T, D> robust_strain(const BasicWrench<T, D>& wrench) {
-    if constexpr (std::is_same_v<T, Wide>) {
-      TendonSection<with_shear, double, D> section(arc_);
-      const BasicScrew<double, D> strain = section.strain(narrow(wrench));
-      collapsed_ = collapsed_ || section.collapsed();
-      return wide(strain);
-    } else {
-      TendonSection<with_shear, T, D> section(arc_);
-      const BasicScrew<T, D> strain = section.strain(wrench);
-      collapsed_ = collapsed_ || section.collapsed();
-      return strain;
-    }
-  }
   // C W; without shear that of the turn alone.
   template <class Number>
   BasicScrew<Number, D> give(const Angular<Number, D>& moment_Nmm, const Vector<Number, D>& force_N) const {
@@ -152,12 +155,12 @@ class OneTendonSection {
   // Of 1 + G (1 - d d^T) / |t|; G is symmetric.
   template <class Number>
   Square<Number> inverse_derivative(const Vector<Number, D>& d, const Number& inverse_length) const {
-    const Vector<Number, D> along = product<Number>(give_, d) * inverse_length;
+    const Vector<Number, D> along = product(give_, d) * inverse_length;
     Square<Number> rows;
     for (int i = 0; i < D; ++i) {
       const auto row = static_cast<std::size_t>(i);
       rows[row] = as<Number>(Vector<double, D>(Vector<double, D>::Unit(i))) +
-                  numbers<Number>(give_[row]) * inverse_length - d * Number(along[i]);
+                  numbers<Vector<Number, D>>(give_[row]) * inverse_length - d * Number(along[i]);
     }
     return inverse_of_rows(rows);
   }
@@ -173,7 +176,7 @@ class OneTendonSection {
       if (!(length > least_length * arc_.rest_translation_mm[0])) return false;
       const Vector<Value, D> d = t * (1 / length);
       inverse = inverse_derivative<Value>(d, 1 / length);
-      const Vector<Value, D> newton = product<Value>(inverse, Vector<Value, D>(t + product<Value>(give_, d) - loose));
+      const Vector<Value, D> newton = product(inverse, Vector<Value, D>(t + product(give_, d) - loose));
       t -= newton;
       const double size = newton.norm() / length;
       if (!(size < largest_step)) return false;

@@ -63,11 +63,14 @@ class Response {
     std::size_t index = 0;
     bool operator==(const Source&) const = default;
   };
+  static constexpr Source first_tensions{Kind::tension, 0};
 
   // Slopes and the solution of an arc, base frame. `slopes` of the turn, the way, and the gain (as in ArcVariation) by
   // the wrench and, with distributed forces, by the fixed force in the distal frame.
   struct Arc {
     Eigen::Matrix<double, 12, 9> slopes;
+    bool has_tensions;  // `tensions` are known: the slopes by the first three tendons'
+    Eigen::Matrix<double, 12, 3> tensions;
     Vector3d force_N, moment_Nmm, proximal_force_N, way_mm;
     Matrix3d turn_by_turn, way_by_turn;  // the distal turn by the proximal one; the way by the distal turn
     Columns stiffness, onwards;          // S at the distal end, loads included, and at the proximal one

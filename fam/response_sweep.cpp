@@ -20,10 +20,10 @@ Columns turn_stiffness(const scene::Span& span, const Matrix3d& rotation_BS) {
 }
 
 // Blocks of three rows and columns, from a section's frame into the base frame.
-template <int rows, int N>
-void to_base(const Matrix3d& rotation_BS, const Eigen::Matrix<double, 12, N>& from, Eigen::Matrix<double, 12, 9>& to) {
+template <int rows, int columns>
+void to_base(const Matrix3d& rotation_BS, const auto& from, Eigen::Matrix<double, 12, 9>& to) {
   const Matrix3d rotation_SB = rotation_BS.transpose();
-  for (int column = 0; column < N; column += 3) {
+  for (int column = 0; column < columns; column += 3) {
     for (int row = 0; row < rows; row += 3) {
       const Matrix3d half = from.template block<3, 3>(row, column) * rotation_SB;
       to.block<3, 3>(row, column).noalias() = rotation_BS * half;
@@ -38,6 +38,12 @@ BasicArcConstants<3> turned(const BasicArcConstants<3>& arc, const Matrix3d& rot
   result.angular_compliance = axes * arc.angular_compliance;
   result.linear_compliance = axes * arc.linear_compliance;
   result.rest_rotation = rotation_BP.transpose() * arc.rest_rotation;
+  return result;
+}
+
+Eigen::Matrix<double, 12, 3> turned_rows(const Matrix3d& rotation, const auto& from) {
+  Eigen::Matrix<double, 12, 3> result;
+  for (int row = 0; row < 12; row += 3) result.middleRows<3>(row) = rotation * from.template middleRows<3>(row);
   return result;
 }
 
@@ -110,17 +116,27 @@ SectionWrench Response::linearise(std::size_t i, std::size_t k) {
   arc.moment_Nmm = pose.rotation_BS * wrench.moment_Nmm;
   // The frame of the arc's slopes: the section's or, turned about the tangent, one in whose x-y plane the rod lies.
   const Matrix3d R = planar_ ? Matrix3d(pose.rotation_BS * *solution_.rotation_BP) : pose.rotation_BS;
+  arc.has_tensions = false;
   if (!has_forces(i)) {
     const ArcVariation<6> variation = vary<6>(nullptr, wrench);
-    to_base<6>(R, variation.slopes, arc.slopes);
+    to_base<6, 6>(R, variation.slopes, arc.slopes);
     arc.way_mm = R * variation.way_D_mm;
     return {};
   }
   const ArcForces<double, 3> forces = forces_on(i, constants_.length_mm, pose.rotation_BS);
-  const ArcVariation<9> variation = vary<9>(&forces, wrench);
-  to_base<12>(R, variation.slopes, arc.slopes);
-  arc.way_mm = R * variation.way_D_mm;
-  return {R * variation.gain_D.force_N, R * variation.gain_D.moment_Nmm};
+  const auto take = [&](const auto& variation) -> SectionWrench {
+    to_base<12, 9>(R, variation.slopes, arc.slopes);
+    arc.way_mm = R * variation.way_D_mm;
+    return {R * variation.gain_D.force_N, R * variation.gain_D.moment_Nmm};
+  };
+  arc.has_tensions = !planar_ && acts_in(first_tensions, i);
+  if (!arc.has_tensions) return take(vary<9>(&forces, wrench));
+  ArcChange<12> change = unit_changes<12>();
+  change.constant = Constant::tension;
+  change.tendon_arms = tendon_arms(first_tensions, i);
+  const ArcVariation<12> variation = vary_arc(solution_.law, solution_.model, constants_, &forces, wrench, change);
+  arc.tensions = turned_rows(R, variation.slopes.rightCols<3>());
+  return take(variation);
 }
 
 // S at the arc's distal end, from that beyond, and what the arc makes of it: its own answer to the turn of its proximal
@@ -141,7 +157,7 @@ void Response::carry(std::size_t i, std::size_t k, const SectionWrench& gain_B) 
   const bool distributed = has_forces(i);
   if (distributed) {
     met.bottomRows<3>() = skew(arc_length_mm(i) * span.fixed_force_B_N_per_mm);
-    answer = arc.slopes * met;
+    answer.noalias() = arc.slopes.lazyProduct(met);
   } else {
     answer.topRows<6>() = arc.slopes.topLeftCorner<6, 6>() * met.topRows<6>();
   }
@@ -176,7 +192,7 @@ void Response::sweep_to_clamp(Sweep& sweep) {
         node.shift_mm = answer.bottomRows<3>();
       } else {
         Eigen::Matrix<double, 12, 3> answer = Eigen::Matrix<double, 12, 3>::Zero();
-        if (distributed) answer = arc.slopes.leftCols<6>() * w;
+        if (distributed) answer.noalias() = arc.slopes.leftCols<6>().lazyProduct(w);
         else answer.topRows<6>() = arc.slopes.topLeftCorner<6, 6>() * w;
         if (acts) answer += source_in(sweep.source, i, k);
         node.turn = answer.topRows<3>();
@@ -191,6 +207,7 @@ void Response::sweep_to_clamp(Sweep& sweep) {
 
 // What the source makes of an arc whose distal end is held: turn, way, force and moment, base frame.
 Eigen::Matrix<double, 12, 3> Response::source_in(const Source& source, std::size_t i, std::size_t k) const {
+  if (source == first_tensions && arcs_[k].has_tensions) return arcs_[k].tensions;
   const Matrix3d& R = solution_.poses[k + 1].rotation_BS;
   ArcChange<3> change;
   add_source(source, i, constants_.length_mm, R, change);
@@ -201,9 +218,7 @@ Eigen::Matrix<double, 12, 3> Response::source_in(const Source& source, std::size
   const bool with_forces = has_forces(i) || brings_forces(source, i);
   const ArcVariation<3> variation = vary_arc(solution_.law, solution_.model, constants_,
                                              with_forces ? &forces : nullptr, solution_.distal_wrenches_S[k], change);
-  Eigen::Matrix<double, 12, 3> result;
-  for (int row = 0; row < 12; row += 3) result.middleRows<3>(row) = R * variation.slopes.middleRows<3>(row);
-  return result;
+  return turned_rows(R, variation.slopes);
 }
 
 // Turns and shifts, from the clamp.

@@ -10,33 +10,38 @@
 #include "fam/arc_slopes.h"
 #include "fam/elimination.h"
 #include "fam/skew.h"
+#include "fam/wide.h"
 
 #include <array>
 
 namespace fam {
 
-// Coefficients of a tendon's direction and of |t|.
-template <std::size_t terms>
+// Coefficients of a tendon's direction and of |t|. T: double or Wide.
+template <class T, std::size_t terms>
 struct TendonSeries {
-  std::array<Vector3d, terms> direction;
-  std::array<double, terms> length;
+  std::array<Vector<T, 3>, terms> direction;
+  std::array<T, terms> length;
+  T inverse_length;  // of the first
 
-  TendonSeries(const Vector3d& arm, const std::array<Vector3d, terms>& rotation,
+  TendonSeries() = default;
+  TendonSeries(const Vector3d& arm_mm, const std::array<Vector3d, terms>& rotation,
                const std::array<Vector3d, terms>& translation) {
-    std::array<Vector3d, terms> t;
+    const Vector<T, 3> arm = as<T>(arm_mm);
+    std::array<Vector<T, 3>, terms> t;
     for (std::size_t k = 0; k < terms; ++k) {
-      t[k] = translation[k] + rotation[k].cross(arm);
+      t[k] = as<T>(translation[k]) + Vector<T, 3>(cross(as<T>(rotation[k]), arm));
       if (k == 0) {
         length[0] = t[0].norm();
-        direction[0] = t[0] / length[0];
+        inverse_length = 1 / length[0];
+        direction[0] = t[0] * inverse_length;
         continue;
       }
-      double along = t[0].dot(t[k]);
-      for (std::size_t j = 1; j < k; ++j) along += 0.5 * (t[j].dot(t[k - j]) - length[j] * length[k - j]);
-      length[k] = along / length[0];
+      T along = t[0].dot(t[k]);
+      for (std::size_t j = 1; j < k; ++j) along = along + 0.5 * (t[j].dot(t[k - j]) - length[j] * length[k - j]);
+      length[k] = along * inverse_length;
       direction[k] = t[k];
       for (std::size_t j = 1; j <= k; ++j) direction[k] -= direction[k - j] * length[j];
-      direction[k] /= length[0];
+      direction[k] = direction[k] * inverse_length;
     }
   }
 };
@@ -51,19 +56,22 @@ struct ConstantSeries {
   }
 };
 
-template <bool with_shear, std::size_t terms>
+template <bool with_shear, std::size_t terms, class T = double>
 class SectionSlopes {
  public:
   static constexpr int unknowns = with_shear ? 6 : 3;
   using Square = Eigen::Matrix<double, unknowns, unknowns>;
+  using Block = std::array<Vector<T, 3>, 3>;  // symmetric, by columns
   using Series = std::array<Vector3d, terms>;
 
   // The strain's coefficients; without shear those of the translation are (h, 0, 0), 0, 0 ...
   SectionSlopes(const BasicArcConstants<3>& arc, const Series& rotation, const Series& translation)
       : arc_(arc), rotation_(rotation), translation_(translation) {
     if (arc.tendons.empty()) return;
+    turn_stiffness_.fill({Vector<T, 3>::Zero(), Vector<T, 3>::Zero(), Vector<T, 3>::Zero()});
     stiffness_.setZero();
     for (std::size_t i = 0; i < arc.tendons.size(); ++i) set(arc.tendons[i], tendons_[i]);
+    if constexpr (!with_shear) stiffness_ = matrix(turn_stiffness_[0]);
     Eigen::Matrix<double, unknowns, 1> compliance;
     compliance.template head<3>() = arc.angular_compliance;
     if constexpr (with_shear) compliance.template tail<3>() = arc.linear_compliance;
@@ -77,12 +85,15 @@ class SectionSlopes {
   // All with tendons: A and S at the distal end.
   const Square& compliance() const { return compliance_; }
   const Square& tendon_stiffness() const { return stiffness_; }
-  // A tendon's part of S is B^T P B: its arm, that makes B, and the coefficients of P = T/|t| (1 - d d^T).
+  // With shear a tendon's part of S is B^T P B: its arm, that makes B, and the coefficients of P = T/|t| (1 - d d^T).
   struct Tendon {
     Vector3d arm_mm;
-    std::array<Matrix3d, terms> across;
+    TendonSeries<T, terms> series;
+    std::array<Block, terms> across;
   };
   std::span<const Tendon> tendons() const { return {tendons_.data(), arc_.tendons.size()}; }
+  // Without shear: the coefficients of S.
+  const std::array<Block, terms>& turn_stiffness() const { return turn_stiffness_; }
 
   // The changes of the wrench that a changed constant is.
   ConstantSeries<terms> constant_series(Constant constant, const TendonArms& tendon_arms) const {
@@ -91,10 +102,10 @@ class SectionSlopes {
       for (int i = 0; i < 3; ++i) {
         const std::optional<Vector3d>& arm_mm = tendon_arms[static_cast<std::size_t>(i)];
         if (!arm_mm) continue;
-        const TendonSeries<terms> tendon(*arm_mm, rotation_, translation_);
+        const TendonSeries<T, terms> tendon = series_at(*arm_mm);
         for (std::size_t k = 0; k < terms; ++k) {
-          result.moment[k].col(i) = -arm_mm->cross(tendon.direction[k]);
-          result.force[k].col(i) = -tendon.direction[k];
+          result.moment[k].col(i) = -eigen(Vector<T, 3>(arm_cross(as<T>(*arm_mm), tendon.direction[k])));
+          result.force[k].col(i) = -eigen(tendon.direction[k]);
         }
       }
     } else if (constant == Constant::stiffness) {
@@ -107,32 +118,58 @@ class SectionSlopes {
   }
 
  private:
+  static Vector3d eigen(const Vector<T, 3>& v) { return {v[0], v[1], v[2]}; }
+  static Matrix3d matrix(const Block& block) {
+    Matrix3d result;
+    result << eigen(block[0]), eigen(block[1]), eigen(block[2]);
+    return result;
+  }
+  TendonSeries<T, terms> series_at(const Vector3d& arm_mm) const {
+    for (std::size_t i = 0; i < arc_.tendons.size(); ++i)
+      if (arc_.tendons[i].arm_mm == arm_mm) return tendons_[i].series;
+    return {arm_mm, rotation_, translation_};
+  }
+
   void set(const BasicTendon<3>& tendon, Tendon& slopes) {
-    const TendonSeries<terms> series(tendon.arm_mm, rotation_, translation_);
-    std::array<double, terms> pull;      // T/|t|
-    std::array<Matrix3d, terms> across;  // 1 - d d^T
     slopes.arm_mm = tendon.arm_mm;
+    slopes.series = {tendon.arm_mm, rotation_, translation_};
+    const Vector<T, 3> arm = as<T>(tendon.arm_mm);
+    // P, or without shear S, is the series of T/|t| times a constant, less that of T/|t| a a^T: a = d, or r x d.
+    std::array<Vector<T, 3>, terms> a, pulled;  // pulled: T/|t| a
+    std::array<T, terms> pull;                  // T/|t|
     for (std::size_t k = 0; k < terms; ++k) {
-      pull[k] = k == 0 ? tendon.tension_N : 0;
-      for (std::size_t j = 1; j <= k; ++j) pull[k] -= series.length[j] * pull[k - j];
-      pull[k] /= series.length[0];
-      across[k] = (k == 0 ? 1 : 0) * Matrix3d::Identity();
-      for (std::size_t j = 0; j <= k; ++j) across[k] -= series.direction[j] * series.direction[k - j].transpose();
-      slopes.across[k].setZero();
-      for (std::size_t j = 0; j <= k; ++j) slopes.across[k] += pull[j] * across[k - j];
+      a[k] = slopes.series.direction[k];
+      if constexpr (!with_shear) a[k] = arm_cross(arm, a[k]);
+      pull[k] = k == 0 ? tendon.tension_N : 0.0;
+      for (std::size_t j = 1; j <= k; ++j) pull[k] = pull[k] - slopes.series.length[j] * pull[k - j];
+      pull[k] = pull[k] * slopes.series.inverse_length;
+      pulled[k] = a[k] * pull[0];
+      for (std::size_t j = 1; j <= k; ++j) pulled[k] += a[k - j] * pull[j];
     }
-    const Matrix3d arm = skew(tendon.arm_mm), &P = slopes.across[0];
+    for (std::size_t column = 0; column < 3; ++column) {
+      const int i = static_cast<int>(column);
+      Vector<T, 3> constant = as<T>(Vector3d(Vector3d::Unit(i)));
+      if constexpr (!with_shear) constant = constant * T(tendon.arm_mm.squaredNorm()) - arm * T(tendon.arm_mm[i]);
+      for (std::size_t k = 0; k < terms; ++k) {
+        Vector<T, 3> sum = constant * pull[k];
+        for (std::size_t j = 0; j <= k; ++j) sum -= pulled[j] * T(a[k - j][i]);
+        if constexpr (with_shear) slopes.across[k][column] = sum;
+        else turn_stiffness_[k][column] += sum;
+      }
+    }
+    if constexpr (with_shear) add_stiffness(skew(tendon.arm_mm), matrix(slopes.across[0]));
+  }
+  void add_stiffness(const Matrix3d& arm, const Matrix3d& P) {
     stiffness_.template topLeftCorner<3, 3>() -= arm * P * arm;
-    if constexpr (with_shear) {
-      stiffness_.template topRightCorner<3, 3>() += arm * P;
-      stiffness_.template bottomLeftCorner<3, 3>() -= P * arm;
-      stiffness_.template bottomRightCorner<3, 3>() += P;
-    }
+    stiffness_.template topRightCorner<3, 3>() += arm * P;
+    stiffness_.template bottomLeftCorner<3, 3>() -= P * arm;
+    stiffness_.template bottomRightCorner<3, 3>() += P;
   }
 
   const BasicArcConstants<3>& arc_;
   const Series &rotation_, &translation_;
   Square stiffness_, compliance_;                           // S, A; not set without tendons
+  std::array<Block, terms> turn_stiffness_;
   std::array<Tendon, scene::max_tendon_offsets> tendons_;  // on the stack, touched only as far as there are tendons
 };
 

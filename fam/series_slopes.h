@@ -47,22 +47,25 @@ class SeriesSlopes {
     middle_ = fam::bracket(a1_, inner_);
   }
 
-  // Slopes of the screw; with distributed forces of the wrench at the proximal end.
+  // Slopes of the screw; with distributed forces of the wrench at the proximal end. `constant`: null, or what the last
+  // three changes' constant is worth.
   struct Slopes {
     ScrewChanges<V> screw;
     Changes3<V> force, moment;
   };
   template <int N>
   Slopes changes(const ArcChange<N>& change, const ConstantSeries<terms>* constant, int first) const {
+    if (first + width<V> <= N - 3) constant = nullptr;
+    const int of_constant = first - (N - 3);
     Terms d;
     d.force[0] = columns<V>(change.force_N, first);
     d.moment[0] = columns<V>(change.moment_Nmm, first);
     if (forces_) d.fixed[0] = columns<V>(change.fixed_D_N, first);
-    set_strain(d, constant, first, 0);
+    set_strain(d, constant, of_constant, 0);
     for (std::size_t k = 0; k + 1 < terms; ++k) {
       advance(d, k);
       if (forces_ && k == 0) d.force[1] += columns<V>(change.follower_S_N, first);
-      set_strain(d, constant, first, k + 1);
+      set_strain(d, constant, of_constant, k + 1);
     }
     Slopes slopes{magnus(d), {}, {}};
     if (forces_) {
@@ -80,7 +83,7 @@ class SeriesSlopes {
  private:
   struct Terms {
     std::array<Changes3<V>, terms> rotation, translation, force, moment, fixed;
-    std::array<std::array<Changes3<V>, terms>, D == 3 ? scene::max_tendon_offsets : 0>
+    std::array<std::array<Changes3<V>, terms>, D == 3 && with_shear ? scene::max_tendon_offsets : 0>
         tendons;  // t h, as far as there are
   };
 
@@ -98,11 +101,14 @@ class SeriesSlopes {
   }
   void set_tendon_strain(Terms& d, Changes3<V> force, Changes3<V> moment, std::size_t k) const {
     const auto tendons = section_.tendons();
-    for (std::size_t i = 0; k > 0 && i < tendons.size(); ++i) {
+    if constexpr (!with_shear) {
+      for (std::size_t j = 1; j <= k; ++j) moment += -1.0 * product(section_.turn_stiffness()[j], d.rotation[k - j]);
+    }
+    for (std::size_t i = 0; with_shear && k > 0 && i < tendons.size(); ++i) {
       Changes3<V> pull = product(tendons[i].across[1], d.tendons[i][k - 1]);
       for (std::size_t j = 2; j <= k; ++j) pull += product(tendons[i].across[j], d.tendons[i][k - j]);
       moment += cross(pull, tendons[i].arm_mm);
-      if constexpr (with_shear) force += -1.0 * pull;
+      force += -1.0 * pull;
     }
     const auto& A = section_.compliance();
     d.rotation[k] = product(A.template topLeftCorner<3, 3>(), moment);
@@ -110,10 +116,8 @@ class SeriesSlopes {
       d.rotation[k] += product(A.template topRightCorner<3, 3>(), force);
       d.translation[k] = product(A.template bottomLeftCorner<3, 3>(), moment);
       d.translation[k] += product(A.template bottomRightCorner<3, 3>(), force);
-    }
-    for (std::size_t i = 0; i < tendons.size(); ++i) {
-      d.tendons[i][k] = cross(d.rotation[k], tendons[i].arm_mm);
-      if constexpr (with_shear) d.tendons[i][k] += d.translation[k];
+      for (std::size_t i = 0; i < tendons.size(); ++i)
+        d.tendons[i][k] = cross(d.rotation[k], tendons[i].arm_mm) + d.translation[k];
     }
   }
 
@@ -166,7 +170,8 @@ class SeriesSlopes {
   };
   const BasicArcConstants<3>& arc_;
   const Series& s_;
-  std::conditional_t<D == 3, SectionSlopes<with_shear, terms>, NoTendons> section_;
+  using Number = std::conditional_t<width<V> == 4, Wide, double>;
+  std::conditional_t<D == 3, SectionSlopes<with_shear, terms, Number>, NoTendons> section_;
   const ArcForces<double, D>* forces_;
   std::array<Vector<double, D>, terms> fixed_N_;
   BasicScrew<double, D> a1_, a2_, a3_, inner_, outer_, middle_;

@@ -1,6 +1,6 @@
 // The arc laws in sections with tendons, for all numbers that are marched.
 #include "fam/arc_law.h"
-#include "fam/one_tendon.h"
+#include "fam/several_tendons.h"
 #include "fam/wide_step.h"
 
 namespace fam {
@@ -20,11 +20,15 @@ FAM_FLATTEN [[gnu::noinline]] BasicMotion<T, D> step(Law law, StrainApart<OneTen
                                                      BasicScrew<T, D>& screw) {
   return law_step(law, section, forces, wrench, screw);
 }
-template <bool with_shear, class T, int D>
-BasicMotion<T, D> step(Law law, TendonSection<with_shear, T, D>& section, const ArcForces<T, D>* forces,
-                       BasicWrench<T, D>& wrench, BasicScrew<T, D>& screw) {
+template <class Section, class T, int D>
+BasicMotion<T, D> step(Law law, Section& section, const ArcForces<T, D>* forces, BasicWrench<T, D>& wrench,
+                       BasicScrew<T, D>& screw) {
   return law_step(law, section, forces, wrench, screw);
 }
+
+template <bool with_shear, class T, int D>
+using SeveralSection =
+    std::conditional_t<D == 3, SeveralTendonsSection<with_shear, T>, TendonSection<with_shear, T, D>>;
 
 // visit(section) with an arc's tendons.
 template <bool with_shear, class T, int D, class Visit>
@@ -33,9 +37,26 @@ auto visit_section(const BasicArcConstants<D>& arc, Visit&& visit) {
     StrainApart<OneTendonSection<with_shear, T, D>> section(arc);
     return visit(section);
   }
-  TendonSection<with_shear, T, D> section(arc);
+  SeveralSection<with_shear, T, D> section(arc);
   return visit(section);
 }
+
+#ifdef FAM_HAS_AVX2_UNIT
+// visit(section) by AVX2.
+template <bool with_shear, class Visit>
+auto visit_wide_section(const ArcConstants& arc, const Visit& visit) {
+  if (arc.tendons.size() == 1) {
+    return call_by_avx2([&] {
+      OneTendonSection<with_shear, Wide, 3> section(arc);
+      return visit(section);
+    });
+  }
+  return call_by_avx2([&] {
+    SeveralTendonsSection<with_shear, Wide> section(arc);
+    return visit(section);
+  });
+}
+#endif
 
 }  // namespace
 
@@ -58,11 +79,9 @@ BasicMotion<T, D> tendon_step(Law law, const BasicArcConstants<D>& arc, const Ar
   }
 #ifdef FAM_HAS_AVX2_UNIT
   if constexpr (D == 3) {
-    if (unit == VectorUnit::avx2 && law == Law::sixth_order && arc.tendons.size() == 1) {
-      return call_by_avx2([&] {
-        OneTendonSection<with_shear, Wide, 3> section(arc);
-        return collapsing(wide_step(section, forces, wrench, screw), section);
-      });
+    if (unit == VectorUnit::avx2 && law == Law::sixth_order) {
+      return visit_wide_section<with_shear>(
+          arc, [&](auto& section) { return collapsing(wide_step(section, forces, wrench, screw), section); });
     }
   }
 #endif
@@ -78,12 +97,10 @@ RodSeries<double, D, terms> series_of(const BasicArcConstants<D>& arc, const Arc
     if constexpr (D == 3) series = elastic_series<with_shear, terms>(arc, forces, wrench, unit);
     else series = rod_series<terms>(ElasticSection<with_shear, double, D>(arc), forces, wrench);
 #ifdef FAM_HAS_AVX2_UNIT
-  } else if (D == 3 && unit == VectorUnit::avx2 && arc.tendons.size() == 1) {
+  } else if (D == 3 && unit == VectorUnit::avx2) {
     if constexpr (D == 3) {
-      series = call_by_avx2([&] {
-        OneTendonSection<with_shear, Wide, 3> section(arc);
-        return wide_series<terms>(section, forces, wrench);
-      });
+      series = visit_wide_section<with_shear>(
+          arc, [&](auto& section) { return wide_series<terms>(section, forces, wrench); });
     }
 #endif
   } else {

@@ -117,6 +117,17 @@ TEST(LawList, NamesLeadBackToTheirLaws) {
   EXPECT_EQ(fam::law_named("seventh_order"), std::nullopt);
 }
 
+template <int D>
+BasicArcConstants<D> soft_arc() {
+  BasicArcConstants<D> arc;
+  arc.length_mm = 20;
+  arc.angular_compliance = 20 * angular_part<D>(Eigen::Vector3d(1 / 150., 1 / 400., 1 / 300.));
+  arc.rest_rotation = 20 * angular_part<D>(Eigen::Vector3d(0.01, -0.02, 0.015));
+  arc.linear_compliance = 20 * linear_part<D>(Eigen::Vector3d(1 / 300., 1 / 90., 1 / 80.));
+  arc.rest_translation_mm = 20 * linear_part<D>(Eigen::Vector3d(1, 0, 0));
+  return arc;
+}
+
 // One tendon, or two of half its tension at the same place: the same arc, though its strain is found in other unknowns.
 // The largest of the two's differences, of the turn in rad and of the rest over the arc's length or the wrench.
 template <bool with_shear, class T, int D>
@@ -154,17 +165,6 @@ double difference_to_halves(const BasicTendon<D>& tendon, const BasicArcConstant
   return largest;
 }
 
-template <int D>
-BasicArcConstants<D> soft_arc() {
-  BasicArcConstants<D> arc;
-  arc.length_mm = 20;
-  arc.angular_compliance = 20 * angular_part<D>(Eigen::Vector3d(1 / 150., 1 / 400., 1 / 300.));
-  arc.rest_rotation = 20 * angular_part<D>(Eigen::Vector3d(0.01, -0.02, 0.015));
-  arc.linear_compliance = 20 * linear_part<D>(Eigen::Vector3d(1 / 300., 1 / 90., 1 / 80.));
-  arc.rest_translation_mm = 20 * linear_part<D>(Eigen::Vector3d(1, 0, 0));
-  return arc;
-}
-
 // With 25 N some tendons are pressed together to a fifth of the arc.
 TEST(OneTendon, IsAsTwoOfHalfTheTension) {
   std::mt19937 random(17);
@@ -195,6 +195,47 @@ TEST(OneTendon, IsAsTwoOfHalfTheTension) {
       const ArcForces<Number, 2>* none = nullptr;
       EXPECT_LT((difference_to_halves<true>(planar_tendon, soft_arc<2>(), planar, none)), 1e-11)
           << tension_N << ' ' << i;
+    }
+  }
+}
+
+// By blocks of Wide numbers, or by a search for the least energy and elimination: the same arc.
+template <bool with_shear>
+double difference_to_least_energy(const ArcConstants& arc, const SectionWrench& distal,
+                                  const ArcForces<double, 3>* forces) {
+  SectionWrench searched = distal, wrench = distal;
+  Screw searched_screw, screw;
+  TendonSection<with_shear, double, 3> section(arc);
+  law_step(Law::sixth_order, section, forces, searched, searched_screw);
+  bool collapsed = false;
+  tendon_step<with_shear>(Law::sixth_order, arc, forces, wrench, screw, collapsed);
+  EXPECT_EQ(collapsed, section.collapsed());
+  if (collapsed) return 0;
+  return std::max({(screw.rotation - searched_screw.rotation).norm(),
+                   (screw.translation_mm - searched_screw.translation_mm).norm() / arc.length_mm,
+                   (wrench.force_N - searched.force_N).norm() / 10,
+                   (wrench.moment_Nmm - searched.moment_Nmm).norm() / 100});
+}
+
+TEST(SeveralTendons, AreAsTheSearchForTheLeastEnergyHasThem) {
+  std::mt19937 random(18);
+  std::uniform_real_distribution<double> one(-1, 1);
+  const auto some = [&](double size) -> Eigen::Vector3d {
+    const double x = one(random), y = one(random);
+    return size * Eigen::Vector3d(x, y, one(random));
+  };
+  for (const double tension_N : {0.0, 3.0, 10.0, 25.0}) {
+    for (int i = 0; i < 50; ++i) {
+      std::array<BasicTendon<3>, 3> tendons;
+      for (BasicTendon<3>& tendon : tendons) tendon = {some(2), tension_N * std::abs(one(random))};
+      ArcConstants arc = soft_arc<3>();
+      arc.tendons = tendons;
+      const SectionWrench wrench{some(2), some(20)};
+      const ArcForces<double, 3> forces{some(1), some(1)};
+      for (const ArcForces<double, 3>* along : {static_cast<const ArcForces<double, 3>*>(nullptr), &forces}) {
+        EXPECT_LT((difference_to_least_energy<true>(arc, wrench, along)), 1e-12) << tension_N << ' ' << i;
+        EXPECT_LT((difference_to_least_energy<false>(arc, wrench, along)), 1e-12) << tension_N << ' ' << i;
+      }
     }
   }
 }

@@ -176,13 +176,13 @@ TEST(ArcSteps, PartsOfEveryVectorUnitAreTheSame) {
 TEST(ArcSteps, OfEveryVectorUnitAreTheSame) {
   std::mt19937 random(9);
   for (const double tension_N : {0., 3., 300.}) {
-    const std::array<fam::BasicTendon<3>, 1> tendon{{{{0, 2, 1}, tension_N}}};
-    for (int i = 0; i < 50; ++i) {
+    const std::array<fam::BasicTendon<3>, 2> tendons{{{{0, 2, 1}, tension_N}, {{0, 0, -2}, tension_N / 3}}};
+    for (int i = 0; i < 100; ++i) {
       PlanarArc arc = random_arc(random);
       arc.wrench.force_N[2] = 5;
       arc.wrench.moment_Nmm[0] = 50;
       arc.forces.fixed_D_N[2] = 1;
-      if (tension_N > 0) arc.constants.tendons = tendon;
+      if (tension_N > 0) arc.constants.tendons = std::span(tendons).first(1 + static_cast<std::size_t>(i % 2));
       for (const fam::ArcForces<double, 3>* forces : {static_cast<fam::ArcForces<double, 3>*>(nullptr), &arc.forces}) {
         expect_same_step<true>(arc, forces);
         expect_same_step<false>(arc, forces);
