@@ -4,6 +4,7 @@
 #include "fam/dual.h"
 #include "fam/motion_slopes.h"
 #include "fam/series_slopes.h"
+#include "fam/wide_step.h"
 
 namespace fam {
 namespace {
@@ -68,13 +69,13 @@ struct DualSection {
   }
 };
 
-template <class V, int D, int N>
-void set_motion(const MotionSlopes<D>& motion, const ScrewChanges<V>& screw, int first, ArcVariation<N>& result) {
+template <class V, int D, class T, int N>
+void set_motion(const MotionSlopes<D, T>& motion, const ScrewChanges<V>& screw, int first, ArcVariation<N>& result) {
   set_columns(motion.turn(screw), first, result.slopes.template topRows<3>());
   set_columns(motion.way(screw), first, result.slopes.template middleRows<3>(3));
 }
-template <class V, int D, int N>
-void set_gain(const MotionSlopes<D>& motion, const Changes3<V>& force, const Changes3<V>& moment,
+template <class V, int D, class T, int N>
+void set_gain(const MotionSlopes<D, T>& motion, const Changes3<V>& force, const Changes3<V>& moment,
               const ArcChange<N>& change, int first, ArcVariation<N>& result) {
   const Changes3<V> turn = columns<V>(result.slopes.template topRows<3>(), first);
   const Changes3<V> way = columns<V>(result.slopes.template middleRows<3>(3), first);
@@ -125,16 +126,16 @@ ArcVariation<N> vary_by_numbers(Law law, const BasicArcConstants<3>& arc, const 
 }
 
 // `s`: the arc's series, seven terms with distributed forces. V: changes at a time.
-template <class V, bool with_shear, std::size_t terms, int D, int N>
+template <class V, bool with_shear, class T, std::size_t terms, int D, int N>
 ArcVariation<N> vary_by_series(const BasicArcConstants<3>& arc, const ArcForces<double, D>* forces,
-                               const RodSeries<double, D, terms>& s, const SectionWrench& wrench,
+                               const RodSeries<T, D, terms>& s, const SectionWrench& wrench,
                                const ArcChange<N>& change) {
   const SeriesSlopes<V, with_shear, terms, D> slopes(arc, s, forces);
   std::optional<ConstantSeries<terms>> constant;
   if constexpr (D == 3) {
     if (change.constant != Constant::none) constant = slopes.constant_series(change.constant, change.tendon_arms);
   }
-  MotionSlopes<D> motion(magnus<with_shear>(s));
+  MotionSlopes<D, T> motion(magnus<with_shear>(s));
   ArcVariation<N> result{motion.motion(), motion.way_mm(), {}, {}};
   if constexpr (terms == 7) {
     motion.meet(proximal_wrench(s));
@@ -155,8 +156,12 @@ ArcVariation<N> vary_on([[maybe_unused]] VectorUnit unit, const BasicArcConstant
                         const ArcForces<double, D>* forces, const RodSeries<double, D, terms>& s,
                         const SectionWrench& wrench, const ArcChange<N>& change) {
 #ifdef FAM_HAS_AVX2_UNIT
-  if (unit == VectorUnit::avx2)
-    return call_by_avx2([&] { return vary_by_series<Quad, with_shear>(arc, forces, s, wrench, change); });
+  if (unit == VectorUnit::avx2) {
+    return call_by_avx2([&] {
+      if constexpr (D == 2) return vary_by_series<Quad, with_shear>(arc, forces, s, wrench, change);
+      else return vary_by_series<Quad, with_shear>(arc, forces, wide<with_shear>(s), wrench, change);
+    });
+  }
 #endif
   return vary_by_series<Pair, with_shear>(arc, forces, s, wrench, change);
 }

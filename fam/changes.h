@@ -2,8 +2,10 @@
 #pragma once
 
 #include "fam/screw.h"
+#include "fam/wide.h"
 
 #include <array>
+#include <type_traits>
 
 namespace fam {
 
@@ -51,12 +53,15 @@ template <class V>
 ChangesAcrossZ<V> operator*(double a, const ChangesAcrossZ<V>& b) {
   return {a * b.x, a * b.y};
 }
-template <class V>
-Changes3<V> cross(const Vector3d& a, const Changes3<V>& b) {
+// With a vector in space: its doubles' vector, or Wide3.
+template <class A>
+concept InSpace = std::is_same_v<A, Vector3d> || std::is_same_v<A, Wide3>;
+template <InSpace A, class V>
+Changes3<V> cross(const A& a, const Changes3<V>& b) {
   return {a[1] * b.z - a[2] * b.y, a[2] * b.x - a[0] * b.z, a[0] * b.y - a[1] * b.x};
 }
-template <class V>
-Changes3<V> cross(const Changes3<V>& a, const Vector3d& b) {
+template <InSpace B, class V>
+Changes3<V> cross(const Changes3<V>& a, const B& b) {
   return {a.y * b[2] - a.z * b[1], a.z * b[0] - a.x * b[2], a.x * b[1] - a.y * b[0]};
 }
 // With a turn about z or a vector in the x-y plane.
@@ -116,6 +121,10 @@ template <class V, class Slopes>
     to(2, first + i) = from.z[i];
   }
 }
+
+// The numbers beside them: what is as wide as they are in space.
+template <class V, int D>
+using NumberBeside = std::conditional_t<D == 3 && width<V> == 4, Wide, double>;
 
 template <class V>
 struct ScrewChanges {

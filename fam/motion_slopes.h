@@ -4,27 +4,31 @@
 #include "fam/changes.h"
 #include "fam/dual.h"
 #include "fam/embedding.h"
+#include "fam/wide.h"
 
 namespace fam {
 
 // What an arc's screw makes of its own changes, and of those of the wrench at the proximal end: the turn and the way
 //   turn = (1 - B [w] + C [w]^2) dw,    way_D = (1 - B [w] + C [w]^2) d,
 // and the gain, that wrench carried back, less the one at the distal end.
-template <int D>
+template <int D, class T = double>
 class MotionSlopes {
  public:
-  explicit MotionSlopes(const BasicScrew<double, D>& screw) : w_(screw.rotation), d_(screw.translation_mm) {
+  explicit MotionSlopes(const BasicScrew<T, D>& screw) : w_(screw.rotation), d_(screw.translation_mm) {
     const BasicCoefficients<Dual<1>> k = screw_coefficients(Dual<1>(w_.dot(w_), Dual<1>::Slope::Ones()));
+    A_ = k.A.value;
     B_ = k.B.value;
     C_ = k.C.value;
     wd_ = fam::cross(w_, d_);
-    const Vector<double, D> wwd = fam::cross(w_, wd_);
-    by_squared_ = k.C.slope[0] * wwd - k.B.slope[0] * wd_;
-    motion_ = {w_, d_ + (B_ * wd_ + C_ * wwd), k.A.value, B_};
-    way_ = d_ + (C_ * wwd - B_ * wd_);
+    const Vector<T, D> wwd = fam::cross(w_, wd_);
+    by_squared_ = T(k.C.slope[0]) * wwd - T(k.B.slope[0]) * wd_;
+    motion_ = {w_, d_ + (T(B_) * wd_ + T(C_) * wwd), k.A.value, B_};
+    way_ = d_ + (T(C_) * wwd - T(B_) * wd_);
   }
-  RigidMotion motion() const { return {embedded_angular(w_), embedded(motion_.position_mm), motion_.A, motion_.B}; }
-  Vector3d way_mm() const { return embedded(way_); }
+  RigidMotion motion() const {
+    return {embedded_angular(narrow(w_)), embedded(narrow(motion_.position_mm)), motion_.A, motion_.B};
+  }
+  Vector3d way_mm() const { return embedded(narrow(way_)); }
 
   template <class V>
   Changes3<V> turn(const ScrewChanges<V>& screw) const {
@@ -38,14 +42,14 @@ class MotionSlopes {
            by_angle(screw.rotation);
   }
 
-  void meet(const BasicWrench<double, D>& proximal) {
+  void meet(const BasicWrench<T, D>& proximal) {
     force_ = motion_.rotate_back(proximal.force_N);
     if constexpr (D == 3) moment_ = motion_.rotate_back(proximal.moment_Nmm);
     else moment_ = proximal.moment_Nmm;
   }
   SectionWrench gain(const SectionWrench& distal) const {
-    const Angular<double, D> moment = moment_ - arm_cross(way_, force_);
-    return {embedded(force_) - distal.force_N, embedded_angular(moment) - distal.moment_Nmm};
+    const Angular<T, D> moment = moment_ - Angular<T, D>(arm_cross(way_, force_));
+    return {embedded(narrow(force_)) - distal.force_N, embedded_angular(narrow(moment)) - distal.moment_Nmm};
   }
   template <class V>
   Changes3<V> carried_force(const Changes3<V>& proximal_force, const Changes3<V>& turn) const {
@@ -61,13 +65,13 @@ class MotionSlopes {
   template <class V>
   Changes3<V> rotate_back(const Changes3<V>& x) const {
     const Changes3<V> wx = cross(w_, x);
-    return x + (B_ * cross(w_, wx) + -motion_.A * wx);
+    return x + (B_ * cross(w_, wx) + -A_ * wx);
   }
 
   // By the change of the angle's square.
   template <class V>
   Changes3<V> by_angle(const Changes3<V>& turn) const {
-    const Vector<double, D>& by = by_squared_;
+    const Vector<T, D>& by = by_squared_;
     if constexpr (D == 2) {
       const V squared = 2 * w_[0] * turn.z;
       return {by[0] * squared, by[1] * squared, V{}};
@@ -77,10 +81,10 @@ class MotionSlopes {
     }
   }
 
-  Angular<double, D> w_, moment_;
-  Vector<double, D> d_, wd_, by_squared_, way_, force_;
-  double B_, C_;
-  BasicMotion<double, D> motion_;
+  Angular<T, D> w_, moment_;
+  Vector<T, D> d_, wd_, by_squared_, way_, force_;
+  double A_, B_, C_;
+  BasicMotion<T, D> motion_;
 };
 
 }  // namespace fam

@@ -24,12 +24,12 @@ struct TendonSeries {
   T inverse_length;  // of the first
 
   TendonSeries() = default;
-  TendonSeries(const Vector3d& arm_mm, const std::array<Vector3d, terms>& rotation,
-               const std::array<Vector3d, terms>& translation) {
+  TendonSeries(const Vector3d& arm_mm, const std::array<Vector<T, 3>, terms>& rotation,
+               const std::array<Vector<T, 3>, terms>& translation) {
     const Vector<T, 3> arm = as<T>(arm_mm);
     std::array<Vector<T, 3>, terms> t;
     for (std::size_t k = 0; k < terms; ++k) {
-      t[k] = as<T>(translation[k]) + Vector<T, 3>(cross(as<T>(rotation[k]), arm));
+      t[k] = translation[k] + Vector<T, 3>(cross(rotation[k], arm));
       if (k == 0) {
         length[0] = t[0].norm();
         inverse_length = 1 / length[0];
@@ -62,7 +62,7 @@ class SectionSlopes {
   static constexpr int unknowns = with_shear ? 6 : 3;
   using Square = Eigen::Matrix<double, unknowns, unknowns>;
   using Block = std::array<Vector<T, 3>, 3>;  // symmetric, by columns
-  using Series = std::array<Vector3d, terms>;
+  using Series = std::array<Vector<T, 3>, terms>;
 
   // The strain's coefficients; without shear those of the translation are (h, 0, 0), 0, 0 ...
   SectionSlopes(const BasicArcConstants<3>& arc, const Series& rotation, const Series& translation)
@@ -104,12 +104,12 @@ class SectionSlopes {
         if (!arm_mm) continue;
         const TendonSeries<T, terms> tendon = series_at(*arm_mm);
         for (std::size_t k = 0; k < terms; ++k) {
-          result.moment[k].col(i) = -eigen(Vector<T, 3>(arm_cross(as<T>(*arm_mm), tendon.direction[k])));
-          result.force[k].col(i) = -eigen(tendon.direction[k]);
+          result.moment[k].col(i) = -narrow(Vector<T, 3>(arm_cross(as<T>(*arm_mm), tendon.direction[k])));
+          result.force[k].col(i) = -narrow(tendon.direction[k]);
         }
       }
     } else if (constant == Constant::stiffness) {
-      for (std::size_t k = 0; k < terms; ++k) result.moment[k].diagonal() = -rotation_[k] / arc_.length_mm;
+      for (std::size_t k = 0; k < terms; ++k) result.moment[k].diagonal() = -narrow(rotation_[k]) / arc_.length_mm;
       result.moment[0].diagonal() += arc_.rest_rotation / arc_.length_mm;
     } else if (constant == Constant::rest_curvature) {
       result.moment[0].diagonal() = arc_.length_mm * arc_.angular_compliance.cwiseInverse();
@@ -118,10 +118,9 @@ class SectionSlopes {
   }
 
  private:
-  static Vector3d eigen(const Vector<T, 3>& v) { return {v[0], v[1], v[2]}; }
   static Matrix3d matrix(const Block& block) {
     Matrix3d result;
-    result << eigen(block[0]), eigen(block[1]), eigen(block[2]);
+    result << narrow(block[0]), narrow(block[1]), narrow(block[2]);
     return result;
   }
   TendonSeries<T, terms> series_at(const Vector3d& arm_mm) const {

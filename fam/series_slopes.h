@@ -8,9 +8,9 @@
 
 namespace fam {
 
-template <class V, int D>
-[[gnu::always_inline]] inline ScrewChanges<V> bracket(const BasicScrew<double, D>& a, const ScrewChanges<V>& da,
-                                                      const BasicScrew<double, D>& b, const ScrewChanges<V>& db) {
+template <class V, class T, int D>
+[[gnu::always_inline]] inline ScrewChanges<V> bracket(const BasicScrew<T, D>& a, const ScrewChanges<V>& da,
+                                                      const BasicScrew<T, D>& b, const ScrewChanges<V>& db) {
   return {cross(da.rotation, b.rotation) + cross(a.rotation, db.rotation),
           cross(da.rotation, b.translation_mm) + cross(a.rotation, db.translation) + cross(da.translation, b.rotation) +
               cross(a.translation_mm, db.rotation)};
@@ -21,16 +21,17 @@ template <class V, int D>
 template <class V, bool with_shear, std::size_t terms, int D>
 class SeriesSlopes {
  public:
-  using Series = RodSeries<double, D, terms>;
+  using Number = NumberBeside<V, D>;
+  using Series = RodSeries<Number, D, terms>;
 
   SeriesSlopes(const BasicArcConstants<3>& arc, const Series& series, const ArcForces<double, D>* forces)
       : arc_(arc), s_(series), section_(arc, series.rotation, series.translation_mm), forces_(forces) {
     if (forces) {
-      fixed_N_[0] = forces->fixed_D_N;
+      fixed_N_[0] = as<Number>(forces->fixed_D_N);
       for (std::size_t k = 0; k + 1 < terms; ++k) {
-        fixed_N_[k + 1].setZero();
-        for (std::size_t j = 0; j <= k; ++j) fixed_N_[k + 1] += fam::cross(s_.rotation[j], fixed_N_[k - j]);
-        fixed_N_[k + 1] /= static_cast<double>(k + 1);
+        auto sum = fam::cross(s_.rotation[0], fixed_N_[k]);
+        for (std::size_t j = 1; j <= k; ++j) sum += fam::cross(s_.rotation[j], fixed_N_[k - j]);
+        fixed_N_[k + 1] = Number(1.0 / static_cast<double>(k + 1)) * Vector<Number, D>(sum);
       }
     }
     a1_ = {weighted(s_.rotation, a1_weights), s_.translation_mm[0]};
@@ -41,7 +42,7 @@ class SeriesSlopes {
       a2_.translation_mm = weighted(s_.translation_mm, a2_weights, 1);
       a3_.translation_mm = weighted(s_.translation_mm, a3_weights, 2);
     }
-    const BasicScrew<double, D> b = fam::bracket(a1_, a2_);
+    const BasicScrew<Number, D> b = fam::bracket(a1_, a2_);
     inner_ = (1 / 360.) * a3_ + (-1 / 720.) * b;
     outer_ = (-1 / 240.) * (a3_ + b);
     middle_ = fam::bracket(a1_, inner_);
@@ -170,11 +171,10 @@ class SeriesSlopes {
   };
   const BasicArcConstants<3>& arc_;
   const Series& s_;
-  using Number = std::conditional_t<width<V> == 4, Wide, double>;
   std::conditional_t<D == 3, SectionSlopes<with_shear, terms, Number>, NoTendons> section_;
   const ArcForces<double, D>* forces_;
-  std::array<Vector<double, D>, terms> fixed_N_;
-  BasicScrew<double, D> a1_, a2_, a3_, inner_, outer_, middle_;
+  std::array<Vector<Number, D>, terms> fixed_N_;
+  BasicScrew<Number, D> a1_, a2_, a3_, inner_, outer_, middle_;
 };
 
 }  // namespace fam

@@ -100,6 +100,14 @@ inline BasicScrew<Wide, 3> wide(const Screw& a) {
 inline BasicWrench<Wide, 3> wide(const SectionWrench& a) {
   return {Wide3::from(a.force_N), Wide3::from(a.moment_Nmm)};
 }
+inline Vector3d narrow(const Wide3& v) {
+  return v.narrow();
+}
+// Whatever is narrow already.
+template <int D>
+const Eigen::Matrix<double, D, 1>& narrow(const Eigen::Matrix<double, D, 1>& v) {
+  return v;
+}
 inline Screw narrow(const BasicScrew<Wide, 3>& a) {
   return {a.rotation.narrow(), a.translation_mm.narrow()};
 }

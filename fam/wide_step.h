@@ -48,15 +48,20 @@ RodSeries<double, 3, terms> wide_series(Section&& section, const ArcForces<doubl
 }
 
 template <bool with_shear, std::size_t terms>
-RigidMotion wide_part_step(const RodSeries<double, 3, terms>& series, double part, SectionWrench& wrench) {
+RodSeries<Wide, 3, terms> wide(const RodSeries<double, 3, terms>& series) {
   RodSeries<Wide, 3, terms> s;
   for (std::size_t k = 0; k < terms; ++k) {
     s.rotation[k] = Wide3::from(series.rotation[k]);
-    if (with_shear || k == 0) s.translation_mm[k] = Wide3::from(series.translation_mm[k]);
-    if (terms == 6) continue;
+    s.translation_mm[k] = with_shear || k == 0 ? Wide3::from(series.translation_mm[k]) : Wide3::Zero();
     s.force_N[k] = Wide3::from(series.force_N[k]);
     s.moment_Nmm[k] = Wide3::from(series.moment_Nmm[k]);
   }
+  return s;
+}
+
+template <bool with_shear, std::size_t terms>
+RigidMotion wide_part_step(const RodSeries<double, 3, terms>& series, double part, SectionWrench& wrench) {
+  RodSeries<Wide, 3, terms> s = wide<with_shear>(series);
   BasicWrench<Wide, 3> wide_wrench = wide(wrench);
   const BasicMotion<Wide, 3> motion = part_step<with_shear>(s, part, wide_wrench);
   wrench = narrow(wide_wrench);
