@@ -3,6 +3,7 @@
 #include "studies/report/table.h"
 #include "studies/scenes/cases.h"
 #include "studies/work_precision/competitors.h"
+#include "studies/work_precision/random_races.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -86,7 +87,7 @@ const Competitor& named(const std::vector<Competitor>& all, const std::vector<st
   return *found;
 }
 
-Spread instructions_of(const WorkData& data, WorkGroup group, const Contestant& contestant, double target) {
+Spread spread_over(const WorkData& data, WorkGroup group, const Contestant& contestant, double target) {
   std::vector<double> counts;
   for (const std::string& scene : data.names(group)) {
     double least = std::numeric_limits<double>::infinity();
@@ -103,28 +104,37 @@ Spread instructions_of(const WorkData& data, WorkGroup group, const Contestant& 
 
 }  // namespace
 
-std::vector<CountedSolve> counted_solves(const WorkData& data) {
-  if (!has_valgrind()) return {};
-  std::vector<CountedSolve> solves = to_be_counted(data);
+std::vector<double> instructions_of(const std::vector<std::string>& lines) {
+  std::vector<double> instructions(lines.size(), NAN);
+  if (!has_valgrind()) return instructions;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe");
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("fam_instructions_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
   {
     std::ofstream list(folder / "list");
-    for (const CountedSolve& solve : solves) list << line_of(solve) << '\n';
+    for (const std::string& line : lines) list << line << '\n';
   }
   const std::string command = fmt::format(
-      "valgrind --tool=callgrind --collect-atstart=no --callgrind-out-file='{0}/out' '{1}' counted-solves "
+      "valgrind --tool=callgrind --collect-atstart=no --dump-line=no --callgrind-out-file='{0}/out' '{1}' "
+      "counted-solves "
       "'{0}/list' >'{0}/log' 2>&1",
       folder.string(), self.string());
   const bool ran = std::system(command.c_str()) == 0;
   const std::map<std::size_t, double> counts = ran ? counts_in(folder) : std::map<std::size_t, double>();
   std::filesystem::remove_all(folder);
-  if (!ran) return {};
-  for (std::size_t i = 0; i < solves.size(); ++i) {
-    if (const auto found = counts.find(i); found != counts.end()) solves[i].instructions = found->second;
-  }
+  for (const auto& [number, count] : counts)
+    if (number < instructions.size()) instructions[number] = count;
+  return instructions;
+}
+
+std::vector<CountedSolve> counted_solves(const WorkData& data) {
+  if (!has_valgrind()) return {};
+  std::vector<CountedSolve> solves = to_be_counted(data);
+  std::vector<std::string> lines;
+  for (const CountedSolve& solve : solves) lines.push_back(line_of(solve));
+  const std::vector<double> instructions = instructions_of(lines);
+  for (std::size_t i = 0; i < solves.size(); ++i) solves[i].instructions = instructions[i];
   return solves;
 }
 
@@ -139,7 +149,8 @@ int run_counted_solves(const std::filesystem::path& list, const std::filesystem:
     for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
     if (cells.size() != 5) throw std::runtime_error(list.string() + ": " + line + ": five cells a line");
     const std::function<void()> solve =
-        named(all, cells).method->bare_solve(read_case(cases, cells[0] + "/" + cells[1]));
+        cells[0] == "random" ? raced_solve(std::stoull(cells[1]), cells[2], std::stod(cells[4]))
+                             : named(all, cells).method->bare_solve(read_case(cases, cells[0] + "/" + cells[1]));
     solve();
     CALLGRIND_ZERO_STATS;
     CALLGRIND_TOGGLE_COLLECT;
@@ -159,7 +170,7 @@ std::string instructions_table(const WorkData& data) {
     std::vector<std::string> cells{c.name()};
     for (const WorkGroup group : work_groups) {
       for (const double target : counted_targets) {
-        const Spread n = instructions_of(data, group, c, target);
+        const Spread n = spread_over(data, group, c, target);
         if (!std::isfinite(n.median)) {
           cells.push_back(fmt::format("– [{}/{}]", n.reached, n.scenes));
           continue;

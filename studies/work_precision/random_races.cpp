@@ -11,6 +11,7 @@
 #include "studies/report/table.h"
 #include "studies/scenes/random_scene.h"
 #include "studies/work_precision/data.h"
+#include "studies/work_precision/instructions.h"
 
 #include <fmt/format.h>
 
@@ -18,6 +19,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <stdexcept>
 
 namespace studies {
 namespace {
@@ -68,11 +70,17 @@ RandomRace solved(std::uint64_t seed, const Scene& scene, const Equilibrium& exa
   return race;
 }
 
+std::function<void()> solve_by_fam(const Scene& scene, double target) {
+  return [scene, options = asked_for(target, scene::length_mm(scene))] { fam::solve(scene, options); };
+}
+std::function<void()> solve_by_shooting(const Scene& scene, int steps) {
+  return rk4_method({steps, true})->bare_solve(scene);
+}
+
 void take_times(RandomRace& race, const Scene& scene) {
   if (!race.judged) return;
-  const fam::Options options = asked_for(race.target, scene::length_mm(scene));
-  race.fam = measure([&] { fam::solve(scene, options); }, budget_s);
-  if (race.steps > 0) race.shooting = measure(rk4_method({race.steps, true})->bare_solve(scene), budget_s);
+  race.fam = measure(solve_by_fam(scene, race.target), budget_s);
+  if (race.steps > 0) race.shooting = measure(solve_by_shooting(scene, race.steps), budget_s);
 }
 
 RandomRace read(const DataRow& row) {
@@ -89,13 +97,13 @@ RandomRace read(const DataRow& row) {
 }
 
 struct Standing {
-  int scenes = 0, judged = 0, fam = 0, shooting = 0, slow = 0;
-  Spread all, both;
+  int scenes = 0, judged = 0, fam = 0, shooting = 0, slow = 0, more = 0;  // more: by instructions
+  Spread all, both, counted;
 };
 
 Standing standing(const std::vector<RandomRace>& races, double target, const std::string& kind = "") {
   Standing result;
-  std::vector<double> ratios, finite;
+  std::vector<double> ratios, finite, counted;
   for (const RandomRace& race : races) {
     if (race.target != target || (!kind.empty() && kind_of(race.seed) != kind)) continue;
     ++result.scenes;
@@ -106,9 +114,12 @@ Standing standing(const std::vector<RandomRace>& races, double target, const std
     ratios.push_back(race.ratio());
     if (race.steps > 0) finite.push_back(race.ratio());
     result.slow += race.ratio() < slower;
+    if (!std::isnan(race.ratio_of_instructions())) counted.push_back(race.ratio_of_instructions());
+    result.more += race.ratio_of_instructions() < slower;
   }
   result.all = spread_of(ratios);
   result.both = spread_of(finite);
+  result.counted = spread_of(counted);
   return result;
 }
 
@@ -130,6 +141,34 @@ std::vector<std::string> kinds(const std::vector<RandomRace>& races) {
 
 double RandomRace::ratio() const {
   return shooting ? shooting->median_us / fam->median_us : std::numeric_limits<double>::infinity();
+}
+
+double RandomRace::ratio_of_instructions() const {
+  return steps > 0                      ? shooting_instructions / fam_instructions
+         : std::isnan(fam_instructions) ? NAN
+                                        : std::numeric_limits<double>::infinity();
+}
+
+std::function<void()> raced_solve(std::uint64_t seed, const std::string& by, double target_or_steps) {
+  const Scene scene = random_scene(seed);
+  if (by == "fam") return solve_by_fam(scene, target_or_steps);
+  if (by == "rk4") return solve_by_shooting(scene, static_cast<int>(target_or_steps));
+  throw std::runtime_error("counted-solves: no racer " + by);
+}
+
+void count_instructions(std::vector<RandomRace>& races) {
+  std::vector<std::string> lines;
+  std::vector<double*> counts;
+  for (RandomRace& race : races) {
+    if (!race.fam) continue;
+    lines.push_back(fmt::format("random,{},fam,,{}", race.seed, race.target));
+    counts.push_back(&race.fam_instructions);
+    if (race.steps == 0) continue;
+    lines.push_back(fmt::format("random,{},rk4,,{}", race.seed, race.steps));
+    counts.push_back(&race.shooting_instructions);
+  }
+  const std::vector<double> instructions = instructions_of(lines);
+  for (std::size_t i = 0; i < counts.size(); ++i) *counts[i] = instructions[i];
 }
 
 std::vector<RandomRace> random_races(const StudyOptions& options) {
@@ -162,14 +201,17 @@ std::string races_csv(const std::vector<RandomRace>& races) {
 }
 
 std::string races_timing_csv(const std::vector<RandomRace>& races) {
-  Table table({"seed", "kind", "target_over_L", "fam_us", "shooting_us"});
+  const auto count = [](double n) { return std::isnan(n) ? std::string("nan") : fixed(n, 0); };
+  Table table({"seed", "kind", "target_over_L", "fam_us", "shooting_us", "fam_instructions", "shooting_instructions"});
   for (const RandomRace& race : races) {
     if (!race.fam) continue;
     table.add({std::to_string(race.seed), kind_of(race.seed), scientific(race.target, 0), fixed(race.fam->median_us, 2),
-               race.shooting ? fixed(race.shooting->median_us, 2) : "nan"});
+               race.shooting ? fixed(race.shooting->median_us, 2) : "nan", count(race.fam_instructions),
+               count(race.shooting_instructions)});
   }
-  return table.csv(
-      {machine_line(), "Medians. fam: fam::solve for the tip; shooting with its fewest steps, nan: none."});
+  return table.csv({machine_line(),
+                    "Medians, and instructions of one solve, memory and caches warm, by callgrind. "
+                    "fam: fam::solve for the tip; shooting with its fewest steps, nan: none."});
 }
 
 std::string races_right(const std::vector<RandomRace>& races) {
@@ -185,20 +227,23 @@ std::string races_answer(const std::vector<RandomRace>& races) {
   const Standing coarse = standing(races, race_targets[0]), fine = standing(races, race_targets[1]);
   return for_reader(fmt::format(
       "Shooting with the fewest steps takes {} times as long at 1e-3 L and {} at 1e-5 L, where it fails infinitely "
-      "long; where both are right {} and {}. It takes less than {} of the time on {} and {} scenes.",
+      "long; where both are right {} and {}. It takes less than {} of the time on {} and {} scenes. Of instructions, "
+      "which do not depend on what else the machine does, it takes {} and {} times as many, and less than {} on {} and "
+      "{}.",
       spread_text(coarse.all), spread_text(fine.all), spread_text(coarse.both), spread_text(fine.both), slower,
-      coarse.slow, fine.slow));
+      coarse.slow, fine.slow, spread_text(coarse.counted), spread_text(fine.counted), slower, coarse.more, fine.more));
 }
 
 std::string races_table(const std::vector<RandomRace>& races) {
   Table table({"kind", "judged scenes", "FAM right, 1e-3 L", "shooting right", "its time over FAM's, 1e-3 L",
-               "below 0.8", "1e-5 L", "below 0.8"});
+               "below 0.8 (of instructions)", "1e-5 L", "below 0.8 (of instructions)"});
+  const auto slow = [](const Standing& s) { return fmt::format("{} ({})", s.slow, s.more); };
   std::vector<std::string> list = kinds(races);
   std::sort(list.begin(), list.end());
   for (const std::string& kind : list) {
     const Standing coarse = standing(races, race_targets[0], kind), fine = standing(races, race_targets[1], kind);
     table.add({kind, std::to_string(coarse.judged), std::to_string(coarse.fam), std::to_string(coarse.shooting),
-               spread_text(coarse.all), std::to_string(coarse.slow), spread_text(fine.all), std::to_string(fine.slow)});
+               spread_text(coarse.all), slow(coarse), spread_text(fine.all), slow(fine)});
   }
   return table.markdown();
 }

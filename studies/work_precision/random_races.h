@@ -6,6 +6,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,10 +24,13 @@ struct RandomRace {
   int steps = 0;        // fewest of plain shooting within the target; 0: none
   double shooting_error = 0;
   std::optional<Timing> fam, shooting;
+  double fam_instructions = std::numeric_limits<double>::quiet_NaN(), shooting_instructions = fam_instructions;
 
   bool fam_is_right() const { return status == "converged" && error <= target; }
   // Time of shooting over that of fam::solve, infinite where shooting fails.
   double ratio() const;
+  // The same of instructions; NaN: not counted.
+  double ratio_of_instructions() const;
 };
 
 inline const std::vector<double> race_targets = {1e-3, 1e-5};
@@ -34,6 +39,9 @@ inline const std::string races_file = "accuracy_random.csv";
 // The first thousand of the mix (mixed_seed) that have a load fixed in space, two targets each. With --quick the first
 // twenty are solved, the others read back from the committed results; no times then.
 std::vector<RandomRace> random_races(const StudyOptions& options);
+void count_instructions(std::vector<RandomRace>& races);
+// One of a race's solves, to be counted or timed: by "fam", asked for a target, or by "rk4" of so many steps.
+std::function<void()> raced_solve(std::uint64_t seed, const std::string& by, double target_or_steps);
 
 std::string races_csv(const std::vector<RandomRace>& races);
 std::string races_timing_csv(const std::vector<RandomRace>& races);

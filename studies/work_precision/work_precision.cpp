@@ -80,7 +80,10 @@ class WorkPrecision {
     progress_.step("random scenes");
     data_.races = random_races(options_);
     progress_.step("instructions");
-    if (!options_.quick) data_.counted = counted_solves(data_);
+    if (!options_.quick) {
+      data_.counted = counted_solves(data_);
+      count_instructions(data_.races);
+    }
     write();
   }
 
