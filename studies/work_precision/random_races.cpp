@@ -144,9 +144,7 @@ double RandomRace::ratio() const {
 }
 
 double RandomRace::ratio_of_instructions() const {
-  return steps > 0                      ? shooting_instructions / fam_instructions
-         : std::isnan(fam_instructions) ? NAN
-                                        : std::numeric_limits<double>::infinity();
+  return shooting_instructions / fam_instructions;
 }
 
 std::function<void()> raced_solve(std::uint64_t seed, const std::string& by, double target_or_steps) {
@@ -160,10 +158,9 @@ void count_instructions(std::vector<RandomRace>& races) {
   std::vector<std::string> lines;
   std::vector<double*> counts;
   for (RandomRace& race : races) {
-    if (!race.fam) continue;
+    if (!race.fam || race.steps == 0) continue;
     lines.push_back(fmt::format("random,{},fam,,{}", race.seed, race.target));
     counts.push_back(&race.fam_instructions);
-    if (race.steps == 0) continue;
     lines.push_back(fmt::format("random,{},rk4,,{}", race.seed, race.steps));
     counts.push_back(&race.shooting_instructions);
   }
@@ -228,8 +225,8 @@ std::string races_answer(const std::vector<RandomRace>& races) {
   return for_reader(fmt::format(
       "Shooting with the fewest steps takes {} times as long at 1e-3 L and {} at 1e-5 L, where it fails infinitely "
       "long; where both are right {} and {}. It takes less than {} of the time on {} and {} scenes. Of instructions, "
-      "which do not depend on what else the machine does, it takes {} and {} times as many, and less than {} on {} and "
-      "{}.",
+      "which do not depend on what else the machine does, it takes {} and {} times as many where both are right, and "
+      "less than {} on {} and {} scenes.",
       spread_text(coarse.all), spread_text(fine.all), spread_text(coarse.both), spread_text(fine.both), slower,
       coarse.slow, fine.slow, spread_text(coarse.counted), spread_text(fine.counted), slower, coarse.more, fine.more));
 }

@@ -29,7 +29,7 @@ struct RandomRace {
   bool fam_is_right() const { return status == "converged" && error <= target; }
   // Time of shooting over that of fam::solve, infinite where shooting fails.
   double ratio() const;
-  // The same of instructions; NaN: not counted.
+  // The same of instructions, where both are right; else, and where none were counted, NaN.
   double ratio_of_instructions() const;
 };
 
@@ -39,6 +39,7 @@ inline const std::string races_file = "accuracy_random.csv";
 // The first thousand of the mix (mixed_seed) that have a load fixed in space, two targets each. With --quick the first
 // twenty are solved, the others read back from the committed results; no times then.
 std::vector<RandomRace> random_races(const StudyOptions& options);
+// Where both are right.
 void count_instructions(std::vector<RandomRace>& races);
 // One of a race's solves, to be counted or timed: by "fam", asked for a target, or by "rk4" of so many steps.
 std::function<void()> raced_solve(std::uint64_t seed, const std::string& by, double target_or_steps);
