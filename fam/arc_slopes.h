@@ -19,8 +19,8 @@ template <int N>
 using Slopes3 = Eigen::Matrix<double, 3, N, Eigen::RowMajor>;
 
 // N changes of what an arc meets: the wrench at its distal end, its distributed forces (times h, as ArcForces), and of
-// its section either nothing, or in the last three its rest curvature, its stiffness (GJ, EI_y, EI_z), or the tensions of up to
-// three tendons (which need not be among the section's; one that is not given changes nothing).
+// its section either nothing, or in the last three changes its rest curvature, its stiffness (GJ, EI_y, EI_z), or the
+// tensions of up to three tendons (which need not be among the section's; one that is not given changes nothing).
 enum class Constant { none, rest_curvature, stiffness, tension };
 using TendonArms = std::array<std::optional<Vector3d>, 3>;  // mm
 template <int N>
@@ -31,8 +31,8 @@ struct ArcChange {
   TendonArms tendon_arms{};
 };
 
-// One of each component of the wrench, six; N = 9: and of a fixed distributed force. N = 8: room for two of that, N = 12:
-// for three of a constant, too.
+// One of each component of the wrench, six; N = 9: and of a fixed distributed force. N = 8: room for two of that;
+// N = 12: and for three of a constant.
 template <int N>
 const ArcChange<N>& unit_changes() {
   static const ArcChange<N> changes = [] {
