@@ -16,7 +16,6 @@ class MotionSlopes {
  public:
   explicit MotionSlopes(const BasicScrew<T, D>& screw) : w_(screw.rotation), d_(screw.translation_mm) {
     const BasicCoefficients<Dual<1>> k = screw_coefficients(Dual<1>(w_.dot(w_), Dual<1>::Slope::Ones()));
-    A_ = k.A.value;
     B_ = k.B.value;
     C_ = k.C.value;
     wd_ = fam::cross(w_, d_);
@@ -65,7 +64,7 @@ class MotionSlopes {
   template <class V>
   Changes3<V> rotate_back(const Changes3<V>& x) const {
     const Changes3<V> wx = cross(w_, x);
-    return x + (B_ * cross(w_, wx) + -A_ * wx);
+    return x + (B_ * cross(w_, wx) + -motion_.A * wx);
   }
 
   // By the change of the angle's square.
@@ -83,7 +82,7 @@ class MotionSlopes {
 
   Angular<T, D> w_, moment_;
   Vector<T, D> d_, wd_, by_squared_, way_, force_;
-  double A_, B_, C_;
+  double B_, C_;
   BasicMotion<T, D> motion_;
 };
 

@@ -68,8 +68,9 @@ class SectionSlopes {
   SectionSlopes(const BasicArcConstants<3>& arc, const Series& rotation, const Series& translation)
       : arc_(arc), rotation_(rotation), translation_(translation) {
     if (arc.tendons.empty()) return;
-    turn_stiffness_.fill({Vector<T, 3>::Zero(), Vector<T, 3>::Zero(), Vector<T, 3>::Zero()});
     stiffness_.setZero();
+    if constexpr (!with_shear)
+      turn_stiffness_.fill({Vector<T, 3>::Zero(), Vector<T, 3>::Zero(), Vector<T, 3>::Zero()});
     for (std::size_t i = 0; i < arc.tendons.size(); ++i) set(arc.tendons[i], tendons_[i]);
     if constexpr (!with_shear) stiffness_ = matrix(turn_stiffness_[0]);
     Eigen::Matrix<double, unknowns, 1> compliance;
@@ -167,7 +168,7 @@ class SectionSlopes {
 
   const BasicArcConstants<3>& arc_;
   const Series &rotation_, &translation_;
-  Square stiffness_, compliance_;                           // S, A; not set without tendons
+  Square stiffness_, compliance_;  // S, A; not set without tendons
   std::array<Block, terms> turn_stiffness_;
   std::array<Tendon, scene::max_tendon_offsets> tendons_;  // on the stack, touched only as far as there are tendons
 };
