@@ -93,7 +93,7 @@ def main(build, output):
     data = json.dumps({"commit": commit(), "scenes": scenes(), "chart": chart()}, separators=(",", ":"))
     explore = root / "explore"
     parts = {"style": (explore / "style.css").read_text(),
-             "loader": (build / "explore.js").read_text(),
+             "loader": (build / "explore.js").read_text().replace("/home/web_user", "/"),  # of no machine, but looks like it
              "worker": (explore / "worker.js").read_text(),
              "scripts": "\n".join((explore / name).read_text() for name in scripts),
              "wasm": wasm, "data": data.replace("</", "<\\/")}
