@@ -6,8 +6,8 @@ namespace fam {
 
 template <int D>
 void BasicBoundaryValue<D>::set(const LoadWay& way, std::span<const int> arcs_per_span, Law law, RodModel model,
-                                double newton_tolerance) {
-  shooting_.set(way, arcs_per_span, law, model, newton_tolerance);
+                                double newton_tolerance, const BasicBoundaryValue* fewer) {
+  shooting_.set(way, arcs_per_span, law, model, newton_tolerance, fewer ? &fewer->shooting_ : nullptr);
   growth_.set(shooting_);
   poses_.resize(static_cast<std::size_t>(arc_count()) + 1);
 }

@@ -16,9 +16,10 @@ class BasicBoundaryValue {
  public:
   void reserve(const Room& room);
   // Any coupled law; every kind of load. The spans must stay where they are. Takes memory where more arcs, segments or
-  // spans are asked for than ever before; nothing else here does.
+  // spans are asked for than ever before; nothing else here does. fewer: of the same way, whose arcs these divide, for
+  // run_from().
   void set(const LoadWay& way, std::span<const int> arcs_per_span, Law law, RodModel model,
-           double newton_tolerance = tightest_newton_tolerance);
+           double newton_tolerance = tightest_newton_tolerance, const BasicBoundaryValue* fewer = nullptr);
 
   // From no load, which the way must start with, to the full load. converged, load_step_too_small, work_limit,
   // tendon_collapsed, not_converged or not_finite; message() says why.
@@ -33,8 +34,7 @@ class BasicBoundaryValue {
     const scene::Status status = growth_.run_on(shooting_, last ? &last->shooting_ : nullptr, tip_turn_B);
     return status == scene::Status::converged ? place_arcs() : status;
   }
-  // The full load, starting from a solution of the same spans; the arcs of both must be multiples of those which it
-  // was first found with.
+  // The full load, starting from the solution of the one with fewer arcs that this was set by.
   scene::Status run_from(const BasicBoundaryValue& fewer_arcs);
 
   int arc_count() const { return shooting_.rod().arc_count(); }

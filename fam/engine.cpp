@@ -58,7 +58,7 @@ void Engine::reserve(const Room& room, Law law) {
   planar_boundary_value_.reserve(room);
 }
 
-void Engine::set(const Problem& problem, std::span<const int> arcs_per_span) {
+void Engine::set(const Problem& problem, std::span<const int> arcs_per_span, const Engine* fewer_arcs) {
   const Choice& choice = problem.choice();
   is_march_ = choice.march;
   is_planar_ = choice.plane.has_value();
@@ -76,8 +76,11 @@ void Engine::set(const Problem& problem, std::span<const int> arcs_per_span) {
   const double tolerance =
       has_tolerance ? std::clamp(1e-2 * problem.tolerance_mm() / problem.length_mm(), tightest_newton_tolerance, 1e-5)
                     : tightest_newton_tolerance;
-  if (is_planar_) planar_boundary_value_.set(way, arcs_per_span, choice.law, model, tolerance);
-  else boundary_value_.set(way, arcs_per_span, choice.law, model, tolerance);
+  const auto set_to = [&](auto& solver, const auto* fewer) {
+    solver.set(way, arcs_per_span, choice.law, model, tolerance, fewer);
+  };
+  if (is_planar_) set_to(planar_boundary_value_, fewer_arcs ? &fewer_arcs->planar_boundary_value_ : nullptr);
+  else set_to(boundary_value_, fewer_arcs ? &fewer_arcs->boundary_value_ : nullptr);
 }
 
 Status Engine::run() {

@@ -15,11 +15,11 @@ class Engine {
   // For every solver that loads of this rod may come to ask for; law: chosen.
   void reserve(const Room& room, Law law);
   // Takes memory where more arcs, segments or spans are asked for than ever before. The problem must stay as it is as
-  // long as the engine is asked anything.
-  void set(const Problem& problem, std::span<const int> arcs_per_span);
+  // long as the engine is asked anything. fewer_arcs: one of the same problem, for run_from().
+  void set(const Problem& problem, std::span<const int> arcs_per_span, const Engine* fewer_arcs = nullptr);
 
   scene::Status run();
-  // From the solution of the same problem with fewer arcs; a march starts anew.
+  // From the solution with fewer arcs that this was set by; a march starts anew.
   scene::Status run_from(const Engine& fewer_arcs);
   // Along the problem's way from the shape that the rod had, if known as another engine's solution, and to where the
   // tip has turned by about so much: state_at(arc), SectionState<3> at an arc's distal end in the base frame, without

@@ -54,8 +54,10 @@ struct LoadedCell {
   // off the centreline, which the shape decides.
   double force_N, moment_Nmm, arms_Nmm;
 
+  double length_by_force(double stiffness_Nmm2) const { return length_mm * std::sqrt(force_N / stiffness_Nmm2); }
+  double length_by_moments() const { return moment_Nmm > 0 ? length_mm * moment_Nmm * spin_rate_per_Nmm2(span) : 0; }
   double load_length(double stiffness_Nmm2, bool by_moments) const {
-    return length_mm * (std::sqrt(force_N / stiffness_Nmm2) + (by_moments ? moment_Nmm * spin_rate_per_Nmm2(span) : 0));
+    return length_by_force(stiffness_Nmm2) + (by_moments ? length_by_moments() : 0);
   }
 };
 

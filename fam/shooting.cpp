@@ -43,17 +43,18 @@ void MarchedArcs<D>::resize(std::size_t count) {
 
 template <int D>
 void Shooting<D>::set(const LoadWay& way, std::span<const int> arcs_per_span, Law law, RodModel model,
-                      double newton_tolerance) {
+                      double newton_tolerance, const Shooting* fewer) {
   rod_.set(way, arcs_per_span, law, model);
   newton_tolerance_ = newton_tolerance;
   length_mm_ = way.to.back().end_mm;
   least_stiffness_Nmm2_ = std::numeric_limits<double>::infinity();
   for (const scene::Span& span : way.to)
     least_stiffness_Nmm2_ = std::min(least_stiffness_Nmm2_, least_stiffness_Nmm2(span));
-  cut_into_segments();
+  if (fewer) take_segments(*fewer);
+  else cut_into_segments();
   marched_.resize(static_cast<std::size_t>(rod_.arc_count()));
   moments_are_known_ = scene::moments_are_known(way.to);
-  if (has_few_arcs()) reserve_few_arcs();
+  if (!fewer && has_few_arcs()) reserve_few_arcs();
 }
 
 template <int D>

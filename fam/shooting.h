@@ -119,8 +119,10 @@ class Shooting {
   using Rotation = Eigen::Matrix<double, D, D>;
 
   void reserve(const Room& room);
-  // Takes memory where more arcs, segments or spans are asked for than ever before.
-  void set(const LoadWay& way, std::span<const int> arcs_per_span, Law law, RodModel model, double newton_tolerance);
+  // Takes memory where more arcs, segments or spans are asked for than ever before. fewer: of the same way, whose arcs
+  // these divide; its segments and bounds are taken over, and solve_from() leads on from its solution.
+  void set(const LoadWay& way, std::span<const int> arcs_per_span, Law law, RodModel model, double newton_tolerance,
+           const Shooting* fewer = nullptr);
 
   const LoadedRod<D>& rod() const { return rod_; }
   const LoadBounds& bounds() const { return bounds_; }
@@ -171,7 +173,7 @@ class Shooting {
   // The same near the solution of another one, whatever its arcs, from which the tip turns by about so much: of one
   // segment, with that one's derivatives in the first step.
   bool solve_near(const Shooting* other, const Angular<double, D>& tip_turn_B);
-  // The full load from the solution of the same spans with fewer arcs, each of which became several.
+  // The full load from the solution of the one with fewer arcs that this was set by.
   bool solve_from(const Shooting& fewer);
 
   // Of the equations' derivatives, after newton(): as that left them, or at the solution.
@@ -223,6 +225,7 @@ class Shooting {
 
  private:
   void cut_into_segments();
+  void take_segments(const Shooting& fewer);
   // clamp: the wrench there, or null for the rest shape. The nodes are those of the march; the result is what the loads
   // come to about the clamp on the way.
   BasicWrench<double, D> march_outwards(const BasicWrench<double, D>* clamp);

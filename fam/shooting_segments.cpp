@@ -15,10 +15,11 @@ struct UniqueLength {
   double trace = 0, by_moments = 0, arms_turn_rad = 0;
   double moment_trace = 0, moment_squares_Nmm = 0;  // of the moments' kernel, and of its weight beyond the cell
 
-  void add(const LoadedCell& cell, double force_beyond_Nmm, double stiffness_Nmm2, bool spins) {
+  // spin_length: the part of the cell's load length by moments.
+  void add(const LoadedCell& cell, double force_beyond_Nmm, double stiffness_Nmm2, double spin_length) {
     compliance_per_Nmm = std::max(0.0, compliance_per_Nmm - cell.length_mm / stiffness_Nmm2);
     trace += convexity_share(cell.force_N, force_beyond_Nmm, compliance_per_Nmm, cell.length_mm, stiffness_Nmm2);
-    if (spins) by_moments += cell.load_length(stiffness_Nmm2, true) - cell.load_length(stiffness_Nmm2, false);
+    by_moments += spin_length;
     arms_turn_rad += cell.length_mm * cell.arms_Nmm / stiffness_Nmm2;
     const double moment_Nmm = force_beyond_Nmm + cell.length_mm * cell.force_N + cell.arms_Nmm;
     const double square_N = moment_Nmm * moment_Nmm / stiffness_Nmm2;
@@ -53,6 +54,7 @@ void Shooting<D>::cut_into_segments() {
   UniqueLength unique, in_space;
   // A round rod's energy is that of its centreline's curvature, in space too.
   const bool round = planar && scene::is_round(bounds);
+  const bool is_in_space = D == 3 && !planar;  // then both are one
   const auto giving_way_Nmm2 = [](const scene::Span& span, bool torsion_counts) {
     return torsion_counts ? least_stiffness_Nmm2(span) : span.stiffness.bending_Nmm2.minCoeff();
   };
@@ -64,9 +66,10 @@ void Shooting<D>::cut_into_segments() {
   const auto visit = [&](const LoadedCell& arc) {
     const double least_Nmm2 = least_stiffness_Nmm2(arc.span);
     const double buckling_Nmm2 = giving_way_Nmm2(arc.span, !planar);
-    const double load_length = arc.load_length(buckling_Nmm2, D == 3);
-    unique.add(arc, force_beyond_Nmm, buckling_Nmm2, D == 3);
-    in_space.add(arc, force_beyond_Nmm, giving_way_Nmm2(arc.span, !round), !round);
+    const double spin_length = D == 3 || !round ? arc.length_by_moments() : 0;
+    const double load_length = arc.length_by_force(buckling_Nmm2) + (D == 3 ? spin_length : 0);
+    unique.add(arc, force_beyond_Nmm, buckling_Nmm2, D == 3 ? spin_length : 0);
+    if (!is_in_space) in_space.add(arc, force_beyond_Nmm, giving_way_Nmm2(arc.span, !round), round ? 0 : spin_length);
     force_beyond_Nmm += arc.force_N * arc.length_mm;
     const scene::Wrench tendons = straight_tendons(arc.span);
     bounds_.load_length += load_length;
@@ -93,6 +96,7 @@ void Shooting<D>::cut_into_segments() {
   // Loads that grow from none bound themselves.
   const bool from_no_load = bounds.data() == rod_.way().to.data();
   walk_from_tip(bounds, rod_.arcs_per_span(), visit, from_no_load ? Sum::vectors : Sum::sizes);
+  if (is_in_space) in_space = unique;
   bounds_.unique_share = unique.share();
   bounds_.unique_share_in_space = in_space.share();
   if (scene::is_conservative(bounds)) bounds_.minimum_share = in_space.minimum_share();
@@ -103,9 +107,23 @@ void Shooting<D>::cut_into_segments() {
   if (segments_.size() > 1) system_.resize(unknowns * static_cast<int>(segments_.size()) - rotations - D);
 }
 
+template <int D>
+void Shooting<D>::take_segments(const Shooting& fewer) {
+  const auto here = [&](int arc) {
+    return static_cast<int>(static_cast<long long>(arc) * rod_.arc_count() / fewer.rod_.arc_count());
+  };
+  bounds_ = fewer.bounds_;
+  softness_ = fewer.softness_;
+  segments_ = fewer.segments_;
+  for (ArcRange& segment : segments_) segment = {here(segment.first_arc), here(segment.end_arc)};
+  nodes_.resize(segments_.size());
+}
+
 template bool Shooting<2>::one_equilibrium() const;
 template bool Shooting<3>::one_equilibrium() const;
 template void Shooting<2>::cut_into_segments();
 template void Shooting<3>::cut_into_segments();
+template void Shooting<2>::take_segments(const Shooting<2>&);
+template void Shooting<3>::take_segments(const Shooting<3>&);
 
 }  // namespace fam

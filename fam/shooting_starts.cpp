@@ -180,11 +180,6 @@ bool Shooting<D>::solve_near(const Shooting* other, const Angular<double, D>& ti
 
 template <int D>
 bool Shooting<D>::solve_from(const Shooting& fewer) {
-  const auto here = [&](int arc) {
-    return static_cast<int>(static_cast<long long>(arc) * rod_.arc_count() / fewer.rod_.arc_count());
-  };
-  segments_ = fewer.segments_;
-  for (ArcRange& segment : segments_) segment = {here(segment.first_arc), here(segment.end_arc)};
   nodes_ = fewer.nodes_;
   newton_steps_ = fewer.newton_steps_;
   set_load(1);

@@ -15,7 +15,9 @@ namespace {
 using scene::Span;
 using scene::Status;
 
-// How far two solved rods are apart, at the ends of the second one's arcs, which has more.
+// How far two solved rods are apart, at the ends of the second one's arcs, which has more; or only where an arc of the
+// first ends, too, which takes no place within one.
+enum class Where { arc_ends, everywhere };
 struct Distance {
   double position_mm = 0;
   double rotation_rad = 0;  // where follower loads act, which turn with the section: their directions
@@ -27,7 +29,7 @@ bool is_loaded(const BasicWrench<double, D>& load) {
 }
 
 template <int D>
-Distance distance(const SolvedRod<D>& fewer, const SolvedRod<D>& more) {
+Distance distance(const SolvedRod<D>& fewer, const SolvedRod<D>& more, Where where) {
   Distance largest;
   for (std::size_t i = 0; i < more.spans.size(); ++i) {
     const SpanArcs<D>&span = more.spans[i], &coarse = fewer.spans[i];
@@ -36,6 +38,7 @@ Distance distance(const SolvedRod<D>& fewer, const SolvedRod<D>& more) {
     for (int whole = 0; whole < coarse_count; ++whole) {
       ArcInterior<D> arc(fewer, coarse, coarse.first_arc + whole);
       for (; k * coarse_count <= (whole + 1) * count; ++k) {
+        if (where == Where::arc_ends && k * coarse_count < (whole + 1) * count) continue;
         const BasicPose<D>& here = more.poses[static_cast<std::size_t>(span.first_arc + k)];
         const BasicPose<D> pose = arc.pose(static_cast<double>(k * coarse_count - whole * count) / count);
         largest.position_mm = std::max(largest.position_mm, (here.position_B_mm - pose.position_B_mm).norm());
@@ -49,9 +52,9 @@ Distance distance(const SolvedRod<D>& fewer, const SolvedRod<D>& more) {
   return largest;
 }
 
-Distance distance(const Run& a, const Run& b) {
-  return a.engine.visit_with(b.engine,
-                             [](const auto& one, const auto& other) { return distance(one.solved(), other.solved()); });
+Distance distance(const Run& a, const Run& b, Where where = Where::everywhere) {
+  return a.engine.visit_with(
+      b.engine, [where](const auto& one, const auto& other) { return distance(one.solved(), other.solved(), where); });
 }
 
 double round_off_mm(const Problem& problem, const Run& run) {
@@ -125,18 +128,23 @@ class Ladder {
     const Choice& choice = problem_.choice();
     const double left_out_over_L =
         choice.constant_strains ? 0 : series_error_over_L(run.engine, choice.law, problem_.spans(), run.arcs);
-    return meets(run, 1, {left_out_over_L * problem_.length_mm(), left_out_over_L});
+    const Distance left_out{left_out_over_L * problem_.length_mm(), left_out_over_L};
+    return may_meet(1, left_out) && meets(run, 1, left_out);
   }
 
   // Which of two runs, the finer with `ratio` times the arcs, meets the tolerance; null if none.
   const Run* sufficient(const Run& coarse, const Run& fine, double ratio) {
-    const Distance d = distance(coarse, fine);
-    const double d_mm = largest_mm(d);
-    if (meets(coarse, coarse_safety, d)) return &coarse;
-    const double least = std::isnan(last_mm_) ? unconfirmed : d_mm > contraction * last_mm_ ? 1 : 0;
     const double by_order = fine_safety / (std::pow(ratio, order_ - 1) - 1);
-    if (meets(fine, std::max(least, by_order + distrust * d_mm / problem_.length_mm()), d)) return &fine;
-    last_mm_ = d_mm;
+    const auto factor_of_fine = [&](const Distance& d) {
+      const double d_mm = largest_mm(d);
+      const double least = std::isnan(last_mm_) ? unconfirmed : d_mm > contraction * last_mm_ ? 1 : 0;
+      return std::max(least, by_order + distrust * d_mm / problem_.length_mm());
+    };
+    Distance d = distance(coarse, fine, Where::arc_ends);
+    if (may_meet(std::min(coarse_safety, factor_of_fine(d)), d)) d = distance(coarse, fine);
+    if (may_meet(coarse_safety, d) && meets(coarse, coarse_safety, d)) return &coarse;
+    if (meets(fine, factor_of_fine(d), d)) return &fine;
+    last_mm_ = largest_mm(d);
     return nullptr;
   }
 
@@ -148,6 +156,7 @@ class Ladder {
   }
 
  private:
+  bool may_meet(double factor, const Distance& d) const { return factor * largest_mm(d) <= problem_.tolerance_mm(); }
   double largest_mm(const Distance& d) const { return std::max(d.position_mm, d.rotation_rad * problem_.length_mm()); }
   bool meets(const Run& run, double factor, const Distance& d) {
     const double rest_mm = round_off_mm(problem_, run) + problem_.choice().rod.left_out_mm;
@@ -173,15 +182,16 @@ void Run::reserve(const Room& room, Law law) {
   arcs.reserve(room.spans);
 }
 
-void Run::set(const Problem& problem, std::span<const int> arcs_per_span, int factor) {
+void Run::set(const Problem& problem, std::span<const int> arcs_per_span, int factor, const Run* fewer_arcs) {
   arcs.assign(arcs_per_span.begin(), arcs_per_span.end());
   for (int& count : arcs) count *= factor;
-  engine.set(problem, arcs);
+  engine.set(problem, arcs, fewer_arcs ? &fewer_arcs->engine : nullptr);
 }
 
 void Run::solve(const Problem& problem, std::span<const int> arcs_per_span, int factor, const Run* fewer_arcs) {
-  set(problem, arcs_per_span, factor);
-  status = fewer_arcs && fewer_arcs->converged() ? engine.run_from(fewer_arcs->engine) : engine.run();
+  if (fewer_arcs && !fewer_arcs->converged()) fewer_arcs = nullptr;
+  set(problem, arcs_per_span, factor, fewer_arcs);
+  status = fewer_arcs ? engine.run_from(fewer_arcs->engine) : engine.run();
 }
 
 double estimate_by_doubling_mm(const Problem& problem, const Run& run, Run& spare) {

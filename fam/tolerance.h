@@ -23,7 +23,7 @@ struct Run {
 
   void reserve(const Room& room, Law law);
   // Not solved yet.
-  void set(const Problem& problem, std::span<const int> arcs_per_span, int factor = 1);
+  void set(const Problem& problem, std::span<const int> arcs_per_span, int factor = 1, const Run* fewer_arcs = nullptr);
   // With `factor` times the arcs of each span, from the solution with fewer arcs, or else from no load.
   void solve(const Problem& problem, std::span<const int> arcs_per_span, int factor = 1,
              const Run* fewer_arcs = nullptr);
