@@ -1,11 +1,13 @@
 #include "fam/solve.h"
 
 #include "fam/answer.h"
+#include "fam/column.h"
 #include "fam/limit.h"
 #include "scene/load_visitor.h"
 
 #include <algorithm>
 #include <memory>
+#include <vector>
 
 namespace fam {
 namespace {
@@ -84,6 +86,17 @@ Equilibrium solve_by_tolerance(const Problem& problem, Run& one, Run& another, R
                  "fewest arcs found whose estimate meets the tolerance");
 }
 
+// A column is straight with any number of arcs; empty where it is none, or its stability takes more than a look.
+std::optional<Equilibrium> solve_column(const Problem& problem, Run& run) {
+  const Choice& choice = problem.choice();
+  if (choice.march || !is_column(problem.scene_spans())) return std::nullopt;
+  const std::optional<bool> stable = is_stable_column(problem.scene_spans(), choice.rod.model);
+  if (!stable) return std::nullopt;
+  run.solve(problem, std::vector<int>(problem.spans().size(), 1));
+  if (!run.converged()) return std::nullopt;
+  return success(problem, run, round_off_mm(problem, run) + choice.rod.left_out_mm, stable, "a column is straight");
+}
+
 // What a solve works in.
 struct Workspace {
   Problem problem;
@@ -128,8 +141,9 @@ Equilibrium solve(const scene::Scene& scene, const Options& options) {
     result.message = why_not;
     return result;
   }
-  return options.arcs > 0 ? solve_fixed(problem, memory->one, memory->another, memory->spare)
-                          : solve_by_tolerance(problem, memory->one, memory->another, memory->spare);
+  if (options.arcs > 0) return solve_fixed(problem, memory->one, memory->another, memory->spare);
+  if (std::optional<Equilibrium> column = solve_column(problem, memory->one)) return *column;
+  return solve_by_tolerance(problem, memory->one, memory->another, memory->spare);
 }
 
 }  // namespace fam

@@ -23,7 +23,8 @@ namespace fam {
 //   plane or space   the planar kernels where all lies in one plane (model_choice.h); but for the published law
 //   shear            model_choice.h
 //   law              sixth_order: an arc costs what one of fourth_order does, and fewer are needed
-//   arcs             multiples of set_first_arcs(), the smallest found whose estimated error meets the tolerance
+//   arcs             multiples of set_first_arcs(), the smallest found whose estimated error meets the tolerance; a
+//                    column (column.h) takes one of each span
 //   solver           the march where all loads follow, else the boundary value problem
 //
 // The error estimate: fam/tolerance.h. A thread keeps the memory of its last solve of a small rod.

@@ -57,10 +57,6 @@ Distance distance(const Run& a, const Run& b, Where where = Where::everywhere) {
       b.engine, [where](const auto& one, const auto& other) { return distance(one.solved(), other.solved(), where); });
 }
 
-double round_off_mm(const Problem& problem, const Run& run) {
-  return 4 * std::numeric_limits<double>::epsilon() * problem.length_mm() * std::sqrt(run.arc_count());
-}
-
 // Whether an answer leads to a finer one (leading_swing_rad); agrees: with a coarser one.
 bool leads(const Problem& problem, const Run& coarse, bool agrees) {
   if (!coarse.converged() || coarse.engine.is_march()) return false;
@@ -192,6 +188,10 @@ void Run::solve(const Problem& problem, std::span<const int> arcs_per_span, int 
   if (fewer_arcs && !fewer_arcs->converged()) fewer_arcs = nullptr;
   set(problem, arcs_per_span, factor, fewer_arcs);
   status = fewer_arcs ? engine.run_from(fewer_arcs->engine) : engine.run();
+}
+
+double round_off_mm(const Problem& problem, const Run& run) {
+  return 4 * std::numeric_limits<double>::epsilon() * problem.length_mm() * std::sqrt(run.arc_count());
 }
 
 double estimate_by_doubling_mm(const Problem& problem, const Run& run, Run& spare) {

@@ -58,6 +58,9 @@ constexpr int most_apart = 3;
 // Runs that fail within this of the same load, relative, fail by the rod and not by their arcs.
 constexpr double same_load = 1e-3;
 
+// What rounding may do to a run at least.
+double round_off_mm(const Problem& problem, const Run& run);
+
 // The error of a run as its own number of arcs doubled shows it, in a spare run; infinite where that one fails.
 double estimate_by_doubling_mm(const Problem& problem, const Run& run, Run& spare);
 
