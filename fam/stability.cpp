@@ -10,8 +10,11 @@
 namespace fam {
 namespace {
 
-int negative_eigenvalues(const Matrix3d& matrix) {
-  if ((matrix - Matrix3d::Identity()).squaredNorm() < 1) return 0;  // none is so far from 1
+// With a negative real part. Where the polynomial with its roots at their negatives meets Hurwitz's criterion, none.
+int negative_eigenvalues(const Matrix3d& matrix, double determinant) {
+  const double trace = matrix.trace();
+  const double minors = (trace * trace - (matrix * matrix).trace()) / 2;
+  if (trace > 0 && determinant > 0 && trace * minors > determinant) return 0;
   return static_cast<int>((matrix.eigenvalues().real().array() < 0).count());
 }
 
@@ -58,8 +61,9 @@ Stability stability(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
                     bool is_free) {
   Stability result;
   const bool finite = march_free_tip(rod, segments, nodes, [&](const Matrix3d& turn, bool at_clamp) {
-    result.conjugate_points += negative_eigenvalues(turn);
-    result.log_determinant += std::log(std::abs(turn.determinant()));
+    const double determinant = turn.determinant();
+    result.conjugate_points += negative_eigenvalues(turn, determinant);
+    result.log_determinant += std::log(std::abs(determinant));
     if (is_free && at_clamp && smallest_eigenvalue_is_negative(turn)) --result.conjugate_points;
   });
   if (!finite && !is_free) result.log_determinant = std::numeric_limits<double>::quiet_NaN();
