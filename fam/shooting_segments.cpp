@@ -83,7 +83,7 @@ void Shooting<D>::cut_into_segments() {
       const double force_N = arc.force_N + tendons.force_N.norm();
       bounds_.strain = std::max(bounds_.strain, force_N * linear_compliance_per_N(arc.span));
     }
-    if (since_cut > 0 && since_cut + load_length > segment_load_length) {
+    if (since_cut > 0 && since_cut + load_length > segment_load_length_) {
       segments_.push_back({arc.cell + 1, end_arc});
       softness_.push_back(0);
       end_arc = arc.cell + 1;

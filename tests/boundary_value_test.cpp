@@ -313,7 +313,7 @@ double left_by_newton(const scene::Scene& scene, double tolerance, const scene::
   fam::BoundaryValue few, many, exact;
   const std::vector<int> arcs = scene::cells_per_span(spans, 4), more = scene::cells_per_span(spans, 8);
   few.set(loads.way(), arcs, Law::sixth_order, fam::RodModel::kirchhoff, tolerance);
-  many.set(loads.way(), more, Law::sixth_order, fam::RodModel::kirchhoff, tolerance);
+  many.set(loads.way(), more, Law::sixth_order, fam::RodModel::kirchhoff, tolerance, &few);
   exact.set(judging_loads.way(), more, Law::sixth_order, fam::RodModel::kirchhoff);
   EXPECT_EQ(few.run(), scene::Status::converged);
   EXPECT_EQ(many.run_from(few), scene::Status::converged);
