@@ -16,6 +16,9 @@ constexpr int most_cells = 1024;  // of a span
 // Stretch and shear: up to it P falls with N, so that its steps are those at the ends of a cell.
 constexpr double most_strain = 0.1;
 
+// Of the pressing force, by which the steps are farther from it: nearer to a critical one rounding may decide. Chosen.
+constexpr double margin = 1e-10;
+
 enum class Steps { below, above };  // the pressing force that they stand for
 
 double tension_N(const Span& span) {
@@ -82,7 +85,9 @@ bool is_positive(std::span<const Span> spans, RodModel model, int plane, int cel
       const double distal_N = pressing_N(span, model, plane, pull_N);
       pull_N += growth_N;
       const double proximal_N = pressing_N(span, model, plane, pull_N);
-      const double step_N = steps == Steps::above ? std::max(distal_N, proximal_N) : std::min(distal_N, proximal_N);
+      const double away_N = margin * std::max(std::abs(distal_N), std::abs(proximal_N));
+      const double step_N =
+          steps == Steps::above ? std::max(distal_N, proximal_N) + away_N : std::min(distal_N, proximal_N) - away_N;
       if (!stays_positive(slope_per_mm, step_N / stiffness_Nmm2, length_mm)) return false;
     }
     moment_Nmm = slope_per_mm * stiffness_Nmm2;

@@ -22,8 +22,8 @@ namespace fam {
 // Straight at rest; fixed forces, gravity and tendons, all along the axis.
 bool is_column(std::span<const scene::Span> spans);
 
-// Whether it is stable; empty where the pressing force is within some 1e-3 of a critical one along a span in which it
-// changes, and where the strains are no small ones.
+// Whether it is stable; empty where the pressing force is within 1e-10 of a critical one, or some 1e-3 along a span in
+// which it changes, and where the strains are no small ones.
 std::optional<bool> is_stable_column(std::span<const scene::Span> spans, RodModel model);
 
 }  // namespace fam

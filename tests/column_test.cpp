@@ -28,11 +28,12 @@ std::optional<bool> is_stable(const Scene& scene, RodModel model = RodModel::kir
   return fam::is_stable_column(spans, model);
 }
 
-// The load that is critical, up to a share of it, and not that of a rod 5 % stiffer.
+// The load that is critical, up to a share of it, at which there is no telling, and not that of a rod 5 % stiffer.
 template <class ColumnUnder>
 void expect_critical(ColumnUnder&& column_under, double critical, double share, RodModel model = RodModel::kirchhoff) {
   EXPECT_EQ(is_stable(column_under((1 - share) * critical), model), true);
   EXPECT_EQ(is_stable(column_under((1 + share) * critical), model), false);
+  EXPECT_EQ(is_stable(column_under(critical), model), std::nullopt);
   EXPECT_EQ(is_stable(stiffer(column_under((1 + share) * critical)), model), true);
 }
 
