@@ -17,7 +17,7 @@ constexpr double observed_information = 1e-12, widest_posterior = 0.9;  // of wh
 constexpr double unobserved_share = 0.01;                               // chosen, not measured
 
 constexpr double normal_999 = 3.0902;  // the normal quantile that one in 1000 exceeds
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double unobservable = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -80,13 +80,13 @@ void tell(const Posterior& posterior, const VectorXd& x, const VectorXd& unit, E
   for (Index k = 0; k < x.size(); ++k) {
     const bool observable = posterior.is_observable(k);
     estimate.observable[static_cast<std::size_t>(k)] = observable;
-    estimate.mean[k] = observable ? x[k] * unit[k] : no_number;
-    estimate.sd[k] = observable ? std::sqrt(estimate.covariance(k, k)) : no_number;
+    estimate.mean[k] = observable ? x[k] * unit[k] : unobservable;
+    estimate.sd[k] = observable ? std::sqrt(estimate.covariance(k, k)) : unobservable;
   }
   for (Index k = 0; k < x.size(); ++k) {
     if (estimate.observable[static_cast<std::size_t>(k)]) continue;
-    estimate.covariance.row(k).setConstant(no_number);
-    estimate.covariance.col(k).setConstant(no_number);
+    estimate.covariance.row(k).setConstant(unobservable);
+    estimate.covariance.col(k).setConstant(unobservable);
   }
   estimate.unobservable = posterior.unobservable();
 }
