@@ -93,8 +93,9 @@ std::optional<Equilibrium> solve_column(const Problem& problem, Run& run) {
   const std::optional<bool> stable = is_stable_column(problem.scene_spans(), choice.rod.model);
   if (!stable) return std::nullopt;
   run.solve(problem, std::vector<int>(problem.spans().size(), 1));
-  if (!run.converged()) return std::nullopt;
-  return success(problem, run, round_off_mm(problem, run) + choice.rod.left_out_mm, stable, "a column is straight");
+  const double error_mm = round_off_mm(problem, run) + choice.rod.left_out_mm;
+  if (!run.converged() || error_mm > problem.tolerance_mm()) return std::nullopt;
+  return success(problem, run, error_mm, stable, "a column is straight");
 }
 
 // What a solve works in.

@@ -176,6 +176,16 @@ TEST(Column, IsSolvedWithOneArcASection) {
   }
 }
 
+// A tolerance below round-off is not met, and said not to be. Twin: one above it is.
+TEST(Column, KeepsToItsTolerance) {
+  const Scene column = uniform_rod(50, slender(700, 500), {pressing(0.1, 50)});
+  fam::Options options;
+  options.tolerance_mm = 1e-15;
+  EXPECT_EQ(fam::solve(column, options).status, scene::Status::tolerance_not_met);
+  options.tolerance_mm = 1e-12;
+  EXPECT_EQ(fam::solve(column, options).status, scene::Status::converged);
+}
+
 // What bends at rest, leaves the axis, twists or has no energy is no column.
 TEST(Column, IsStraightWhateverItsLoads) {
   const auto is_column = [](const scene::Load& load) {

@@ -36,6 +36,19 @@ TEST(Limit, OfColumnsNextToRoundAndStraight) {
   }
 }
 
+// A soft rod whose path, followed in segments of 4 load lengths, leads to another equilibrium under the full load. Limit
+// 1e-6; the exact reference meets the fold at 0.862570.
+TEST(Limit, OfASoftRodIsTheExactReferences) {
+  const scene::Scene rod = studies::random_scene(studies::campaign_seed(4710, 1949));
+  const Equilibrium snapped = solved(rod, 1e-4), exact = exact_reference::solve(rod, {});
+  ASSERT_EQ(snapped.status, Status::limit_point) << snapped.message;
+  ASSERT_EQ(exact.status, Status::limit_point) << exact.message;
+  EXPECT_NEAR(snapped.limit->load_factor, exact.limit->load_factor, 1e-6);
+  const Equilibrium stiffer = solved(support::stiffer(rod), 1e-4);
+  ASSERT_TRUE(stiffer.limit);
+  EXPECT_GT(std::abs(stiffer.limit->load_factor - exact.limit->load_factor), 0.01);
+}
+
 void expect_exact_tip(const scene::Scene& scene) {
   const Equilibrium found = solved(scene, 1e-4), exact = exact_reference::solve(scene, {});
   ASSERT_TRUE(exact.converged()) << exact.message;
