@@ -137,7 +137,7 @@ class Ladder {
       return std::max(least, by_order + distrust * d_mm / problem_.length_mm());
     };
     Distance d = distance(coarse, fine, Where::arc_ends);
-    if (may_meet(std::min(coarse_safety, factor_of_fine(d)), d)) d = distance(coarse, fine);
+    if (may_meet(coarse_safety, d)) d = distance(coarse, fine);  // its arcs are longer: they may be apart within alone
     if (may_meet(coarse_safety, d) && meets(coarse, coarse_safety, d)) return &coarse;
     if (meets(fine, factor_of_fine(d), d)) return &fine;
     last_mm_ = largest_mm(d);

@@ -273,6 +273,15 @@ TEST(Answers, CoiledRods) {
   }
 }
 
+// A pressed rod within 1e-6 L, 0.1 um, along its whole length, against the exact reference. By its tip one arc would do,
+// which lies 0.38 um off at s = 28 mm.
+TEST(Answers, OneArcIsComparedInside) {
+  const Scene scene = uniform_rod(100, slender(5, 4), {scene::Force{100, Frame::fixed, {-1.2e-4, 1.45e-4, 0}}});
+  const Equilibrium exact = exact_reference::solve(scene, {.tolerance = 1e-12});
+  EXPECT_LT(studies::largest_distance_mm(solved(scene, 1e-4), exact), 1e-4);
+  EXPECT_GT(studies::largest_distance_mm(solved(support::stiffer(scene), 1e-4), exact), 1e-4);
+}
+
 // Where only clamp and tip are asked for, they are those of the whole answer. Limit: round-off.
 TEST(Answers, ClampAndTipAloneAreThoseOfTheWholeRod) {
   studies::RandomSceneLimits limits;
