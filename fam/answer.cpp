@@ -1,7 +1,6 @@
 #include "fam/answer.h"
 
 #include "fam/embedding.h"
-#include "fam/solution.h"
 #include "fam/stations.h"
 #include "scene/span_facts.h"
 
@@ -133,7 +132,7 @@ std::optional<bool> is_stable(const Problem& problem, const Run& run, const Run*
 }
 
 Equilibrium success(const Problem& problem, const Run& run, double error_mm, std::optional<bool> stable,
-                    const char* how) {
+                    const char* how, Solution& solution) {
   const Choice& choice = problem.choice();
   const std::span<const Span> spans = problem.scene_spans();
   if (run.engine.visit([](const auto& solver) { return any_tendon_collapsed(solver.solved()); })) {
@@ -143,7 +142,6 @@ Equilibrium success(const Problem& problem, const Run& run, double error_mm, std
   result.status = Status::converged;
   result.error_estimate_mm = error_mm;
   result.stable = stable;
-  Solution solution;
   solution.set(problem, run);
   if (!problem.options().whole_rod) {
     result.stations = ends(problem, solution);

@@ -1,7 +1,7 @@
 // What solve() returns of a run.
 #pragma once
 
-#include "fam/tolerance.h"
+#include "fam/solution.h"
 
 #include <limits>
 #include <string>
@@ -15,8 +15,9 @@ constexpr int most_stability_doublings = 6;
 std::optional<bool> is_stable(const Problem& problem, const Run& run, const Run* other, Run& spare, Run& another_spare,
                               int arcs_at_most = std::numeric_limits<int>::max());
 
+// solution: memory.
 scene::Equilibrium success(const Problem& problem, const Run& run, double error_mm, std::optional<bool> stable,
-                           const char* how);
+                           const char* how, Solution& solution);
 scene::Equilibrium failure(const Run& run);
 scene::Equilibrium too_long_for_series(const ArcExtent& extent);
 scene::Equilibrium tolerance_not_met(const Problem& problem, const Run& run, double error_mm);

@@ -63,8 +63,9 @@ std::optional<Equilibrium> equilibrium_at(const scene::Scene& scene, const Optio
   if (misses(problem, error_mm)) return tolerance_not_met(problem, run, error_mm);
   std::optional<bool> stable;
   if (place.index) stable = *place.index == 0;
+  Solution solution;
   Equilibrium result = success(problem, run, error_mm, stable,
-                               after_snap ? "after the rod has snapped" : "its path followed by arc length");
+                               after_snap ? "after the rod has snapped" : "its path followed by arc length", solution);
   if (after_snap) result.model.emplace_back("after_snap", true);
   return result;
 }

@@ -66,42 +66,11 @@ Equilibrium after_failure(const Problem& problem, const Run& run) {
   return failure(run);
 }
 
-Equilibrium solve_fixed(const Problem& problem, Run& run, Run& spare, Run& another_spare) {
-  run.solve(problem, scene::cells_per_span(problem.spans(), problem.options().arcs));
-  if (!run.converged()) return after_failure(problem, run);
-  const ArcExtent extent = run.extent(problem);
-  if (verdict(run.engine, problem.choice().law, extent) == Status::arc_not_converged)
-    return too_long_for_series(extent);
-  const double error_mm = problem.options().estimate_error ? estimate_by_doubling_mm(problem, run, spare)
-                                                           : problem.choice().rod.left_out_mm;
-  return success(problem, run, error_mm, is_stable(problem, run, nullptr, spare, another_spare),
-                 "number of arcs given");
-}
-
-Equilibrium solve_by_tolerance(const Problem& problem, Run& one, Run& another, Run& spare) {
-  const Found found = solve_to_tolerance(problem, one, another);
-  if (found.status == Status::tolerance_not_met) return tolerance_not_met(problem, *found.run, found.error_mm);
-  if (found.status != Status::converged) return after_failure(problem, *found.run);
-  return success(problem, *found.run, found.error_mm, is_stable(problem, *found.run, found.other, *found.other, spare),
-                 "fewest arcs found whose estimate meets the tolerance");
-}
-
-// A column is straight with any number of arcs; empty where it is none, or its stability takes more than a look.
-std::optional<Equilibrium> solve_column(const Problem& problem, Run& run) {
-  const Choice& choice = problem.choice();
-  if (choice.march || !is_column(problem.scene_spans())) return std::nullopt;
-  const std::optional<bool> stable = is_stable_column(problem.scene_spans(), choice.rod.model);
-  if (!stable) return std::nullopt;
-  run.solve(problem, std::vector<int>(problem.spans().size(), 1));
-  const double error_mm = round_off_mm(problem, run) + choice.rod.left_out_mm;
-  if (!run.converged() || error_mm > problem.tolerance_mm()) return std::nullopt;
-  return success(problem, run, error_mm, stable, "a column is straight");
-}
-
 // What a solve works in.
 struct Workspace {
   Problem problem;
   Run one, another, spare;
+  Solution solution;
 
   bool is_small() const {
     const int arcs = std::max({one.arc_count(), another.arc_count(), spare.arc_count()});
@@ -109,6 +78,43 @@ struct Workspace {
            most_kept;
   }
 };
+
+Equilibrium solve_fixed(Workspace& memory) {
+  const Problem& problem = memory.problem;
+  Run& run = memory.one;
+  run.solve(problem, scene::cells_per_span(problem.spans(), problem.options().arcs));
+  if (!run.converged()) return after_failure(problem, run);
+  const ArcExtent extent = run.extent(problem);
+  if (verdict(run.engine, problem.choice().law, extent) == Status::arc_not_converged)
+    return too_long_for_series(extent);
+  const double error_mm = problem.options().estimate_error ? estimate_by_doubling_mm(problem, run, memory.another)
+                                                           : problem.choice().rod.left_out_mm;
+  return success(problem, run, error_mm, is_stable(problem, run, nullptr, memory.another, memory.spare),
+                 "number of arcs given", memory.solution);
+}
+
+Equilibrium solve_by_tolerance(Workspace& memory) {
+  const Problem& problem = memory.problem;
+  const Found found = solve_to_tolerance(problem, memory.one, memory.another);
+  if (found.status == Status::tolerance_not_met) return tolerance_not_met(problem, *found.run, found.error_mm);
+  if (found.status != Status::converged) return after_failure(problem, *found.run);
+  return success(problem, *found.run, found.error_mm,
+                 is_stable(problem, *found.run, found.other, *found.other, memory.spare),
+                 "fewest arcs found whose estimate meets the tolerance", memory.solution);
+}
+
+// A column is straight with any number of arcs; empty where it is none, or its stability takes more than a look.
+std::optional<Equilibrium> solve_column(Workspace& memory) {
+  const Problem& problem = memory.problem;
+  const Choice& choice = problem.choice();
+  if (choice.march || !is_column(problem.scene_spans())) return std::nullopt;
+  const std::optional<bool> stable = is_stable_column(problem.scene_spans(), choice.rod.model);
+  if (!stable) return std::nullopt;
+  memory.one.solve(problem, std::vector<int>(problem.spans().size(), 1));
+  const double error_mm = round_off_mm(problem, memory.one) + choice.rod.left_out_mm;
+  if (!memory.one.converged() || error_mm > problem.tolerance_mm()) return std::nullopt;
+  return success(problem, memory.one, error_mm, stable, "a column is straight", memory.solution);
+}
 
 // A thread's workspace while a solve has it. A solve within a solve finds none and makes one.
 class Borrowed {
@@ -121,7 +127,7 @@ class Borrowed {
   }
   Borrowed(const Borrowed&) = delete;
   Borrowed& operator=(const Borrowed&) = delete;
-  Workspace* operator->() const { return workspace_.get(); }
+  Workspace& operator*() const { return *workspace_; }
 
  private:
   static thread_local std::unique_ptr<Workspace> kept;
@@ -132,19 +138,19 @@ thread_local std::unique_ptr<Workspace> Borrowed::kept;
 }  // namespace
 
 Equilibrium solve(const scene::Scene& scene, const Options& options) {
-  const Borrowed memory;
-  Problem& problem = memory->problem;
-  problem.set(scene, options);
-  const std::string why_not = refusal(problem);
+  const Borrowed borrowed;
+  Workspace& memory = *borrowed;
+  memory.problem.set(scene, options);
+  const std::string why_not = refusal(memory.problem);
   if (!why_not.empty()) {
     Equilibrium result;
     result.status = Status::unsupported;
     result.message = why_not;
     return result;
   }
-  if (options.arcs > 0) return solve_fixed(problem, memory->one, memory->another, memory->spare);
-  if (std::optional<Equilibrium> column = solve_column(problem, memory->one)) return *column;
-  return solve_by_tolerance(problem, memory->one, memory->another, memory->spare);
+  if (options.arcs > 0) return solve_fixed(memory);
+  if (std::optional<Equilibrium> column = solve_column(memory)) return *column;
+  return solve_by_tolerance(memory);
 }
 
 }  // namespace fam
