@@ -135,7 +135,9 @@ std::optional<typename LoadGrowth<D>::StepSize> LoadGrowth<D>::try_step(Shooting
   shooting.set_load(to);
   const double tolerance = shooting.newton_tolerance();
   const double hopeful_rad = near_critical_ ? largest_surprise_rad : largest_smooth_surprise_rad;
-  const OnTheWay way{start_determinant_, hopeless_turns * hopeful_rad, near_critical_};
+  conjugate_points_ = 0;
+  const OnTheWay way{start_determinant_, hopeless_turns * hopeful_rad, near_critical_,
+                     watches_stability_ ? &conjugate_points_ : nullptr};
   bool accepted = shooting.newton(to < 1 ? std::max(tolerance, load_step_tolerance) : tolerance, &way);
   auto [turn, surprise] = StepSize{};
   for (std::size_t k = 0; accepted && k < start_.size(); ++k) {
@@ -177,7 +179,7 @@ bool LoadGrowth<D>::stays_on_branch(Shooting<D>& shooting, double step) {
   if (watches_determinant_ && branch_.has_left(now)) return false;
   // Between determinants that have not fallen there is no conjugate point to be passed; in the plane it would be one of
   // motions out of it, which the determinant does not know.
-  const bool near = D == 2 || !watches_determinant_ || nears_critical(now);
+  const bool near = D == 2 || !watches_determinant_ || nears_critical(now) || conjugate_points_ > 0;
   const bool falls = watches_stability_ && near && is_unstable(shooting);
   if (falls && !(may_fall_ && step <= smallest_bifurcation_step)) return false;
   watches_stability_ = watches_stability_ && !falls;
@@ -268,13 +270,17 @@ template <int D>
 bool LoadGrowth<D>::ends_beside_rest(Shooting<D>& shooting) {
   const double missed_share = shooting.start_from_clamp();
   if (!(missed_share * shooting.bending_rad() <= most_guess_error_rad) || !is_hardly_bent(shooting)) return false;
-  const OnTheWay way{shooting.determinant_at_rest(), leading_turn_rad};
+  int conjugate_points = 1;
+  const OnTheWay way{shooting.determinant_at_rest(), leading_turn_rad, false, &conjugate_points};
   if (!shooting.newton(shooting.newton_tolerance(), &way)) return false;
   shooting.march_all();
-  if (!is_hardly_bent(shooting) || is_unstable(shooting)) return false;
+  if (!is_hardly_bent(shooting)) return false;
+  // Newton's derivatives are those of a shape a step away: too near for what is far from zero to change its sign.
+  const bool smooth = !scene::has_fallen(way.start, shooting.determinant());
+  if (!(smooth && conjugate_points == 0) && is_unstable(shooting)) return false;
+  was_smooth_ = smooth;
   start_determinant_ = way.start;
   watches_determinant_ = true;
-  was_smooth_ = !scene::has_fallen(way.start, shooting.determinant());
   return true;
 }
 

@@ -116,6 +116,7 @@ class LoadGrowth {
   bool watches_determinant_ = false;
   bool watches_stability_ = false;  // the loads have an energy, and the rod was stable so far
   bool may_fall_ = false;           // where its symmetry can hold it
+  int conjugate_points_ = 0;        // in space, met where Newton took its last derivatives
   mutable StabilityJudge<D> judge_;
   int load_steps_ = 0;
   struct {

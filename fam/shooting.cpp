@@ -2,7 +2,6 @@
 
 #include "fam/load_length.h"
 #include "fam/rotation.h"
-#include "fam/varied_march.h"
 #include "scene/span_facts.h"
 
 #include <Eigen/Dense>
@@ -20,6 +19,19 @@ Matrix3d sine_slope(const Matrix3d& M) {
 }
 Eigen::Matrix<double, 1, 1> sine_slope(const Eigen::Matrix2d& M) {
   return Eigen::Matrix<double, 1, 1>(0.5 * M.trace());
+}
+
+template <int N>
+void march_counted(const LoadedRod<3>& rod, ArcRange arcs, SectionState<3>& state, Fields<3, N>& fields,
+                   ConjugatePoints* points) {
+  if (!points) return march_varied(rod, arcs, state, fields);
+  points->start(state);
+  march_varied(rod, arcs, state, fields, [points](const auto& at, const auto& f) { points->after_arc(at, f); });
+}
+template <int N>
+void march_counted(const LoadedRod<2>& rod, ArcRange arcs, SectionState<2>& state, Fields<2, N>& fields,
+                   ConjugatePoints*) {
+  march_varied(rod, arcs, state, fields);
 }
 
 // Below it no other branch is meant. With 1e-4 in its place random scene 99989 ends in work_limit.
@@ -106,7 +118,7 @@ void Shooting<D>::set_residual(std::size_t k, const Node& arrived, SegmentEquati
 // Residual and derivatives of segment k with respect to the N unknowns of its node: the tip's rotations, or all.
 template <int D>
 template <int N>
-void Shooting<D>::evaluate_segment(std::size_t k, SegmentEquations& equations) const {
+void Shooting<D>::evaluate_segment(std::size_t k, SegmentEquations& equations, ConjugatePoints* points) const {
   SectionState<D> state = nodes_[k];
   Fields<D, N> fields;
   fields.turn = fields.turn.Identity();
@@ -116,7 +128,10 @@ void Shooting<D>::evaluate_segment(std::size_t k, SegmentEquations& equations) c
     fields.force_N.template middleCols<D>(rotations).diagonal().setConstant(force_unit());
     fields.moment_Nmm.template rightCols<rotations>().diagonal().setConstant(moment_unit());
   }
-  march_varied(rod_, segments_[k], state, fields);
+  march_counted(rod_, segments_[k], state, fields, points);
+  if constexpr (D == 3) {
+    if (points) points->end(fields, force_unit(), moment_unit());
+  }
   set_residual(k, state, equations);
   auto& [residual, mismatch, arrival, mismatch_slope, mismatch_is_small] = equations;
   mismatch_slope = sine_slope(mismatch);
@@ -204,7 +219,10 @@ bool Shooting<D>::newton_one_segment(bool keep_slope, double tolerance, const On
       equations.mismatch_is_small = is_small<D>(state.rotation_SB);
       if (std::isfinite(last)) slope_ += (residual - last_residual - slope_ * step) * step.transpose() / (last * last);
     } else {
-      evaluate_segment<rotations>(0, equations);
+      ConjugatePoints points;
+      const bool counts = way && way->conjugate_points;
+      evaluate_segment<rotations>(0, equations, counts ? &points : nullptr);
+      if (counts) *way->conjugate_points = points.count();
       residual = equations.residual.template head<rotations>();
       slope_ = equations.arrival.template topLeftCorner<rotations, rotations>();
     }
@@ -259,23 +277,26 @@ void Shooting<D>::set_right(std::size_t k, const SegmentEquations& equations) {
 }
 
 template <int D>
-bool Shooting<D>::evaluate_system(bool keep_factors, bool& mismatches_are_small) {
+bool Shooting<D>::evaluate_system(bool keep_factors, bool& mismatches_are_small, int* conjugate_points) {
   SegmentEquations equations;
+  ConjugatePoints points;
   mismatches_are_small = true;
   if (!keep_factors) system_.set_zero();
-  for (std::size_t k = 0; k < segments_.size(); ++k) {
+  for (std::size_t k = segments_.size(); k-- > 0;) {
     if (keep_factors) {
       Node state = nodes_[k];
       march_remembered(k, state);
       set_residual(k, state, equations);
     } else {
-      if (k + 1 == segments_.size()) evaluate_segment<rotations>(k, equations);
-      else evaluate_segment<unknowns>(k, equations);
+      ConjugatePoints* wanted = conjugate_points ? &points : nullptr;
+      if (k + 1 == segments_.size()) evaluate_segment<rotations>(k, equations, wanted);
+      else evaluate_segment<unknowns>(k, equations, wanted);
       assemble(static_cast<int>(k), equations);
     }
     mismatches_are_small = mismatches_are_small && equations.mismatch_is_small;
     set_right(k, equations);
   }
+  if (conjugate_points && !keep_factors) *conjugate_points = points.count();
   return system_.right().allFinite() && (keep_factors || system_.factorise());
 }
 
@@ -293,7 +314,7 @@ bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const OnT
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
     ++newton_steps_;
     bool small;
-    if (!evaluate_system(keep_factors, small)) return false;
+    if (!evaluate_system(keep_factors, small, way ? way->conjugate_points : nullptr)) return false;
     system_.substitute();
     if (!system_.right().allFinite()) return false;
     const double turn_rad = largest_turn_rad(system_.right()), size = system_.right().cwiseAbs().maxCoeff();

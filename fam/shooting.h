@@ -9,7 +9,7 @@
 #pragma once
 
 #include "fam/band_solver.h"
-#include "fam/varied_march.h"
+#include "fam/stability.h"
 
 #include "scene/branch_watch.h"
 
@@ -97,6 +97,7 @@ struct OnTheWay {
   scene::Determinant start;
   double hopeless_turn_rad;  // a Newton step that turns a node farther is the last
   bool near_critical = false;
+  int* conjugate_points = nullptr;  // wanted of a rod in space, where derivatives are taken
 };
 
 // Newton's steps on the way. Where no critical point is near and one does not turn the nodes by less than half of what
@@ -238,15 +239,16 @@ class Shooting {
   bool has_few_arcs() const;
   void reserve_few_arcs();
   bool solve_few_arcs();
+  // points: wanted of a rod in space, where not null.
   template <int N>
-  void evaluate_segment(std::size_t k, SegmentEquations& equations) const;
+  void evaluate_segment(std::size_t k, SegmentEquations& equations, ConjugatePoints* points = nullptr) const;
   // Of the state that a march of segment k arrives with.
   void set_residual(std::size_t k, const Node& arrived, SegmentEquations& equations) const;
   void assemble(int k, const SegmentEquations& equations);
   void set_right(std::size_t k, const SegmentEquations& equations);
   // The residuals of all segments and, unless the factors are to be kept, their derivatives, factorised. False: not
   // finite, or singular.
-  bool evaluate_system(bool keep_factors, bool& mismatches_are_small);
+  bool evaluate_system(bool keep_factors, bool& mismatches_are_small, int* conjugate_points = nullptr);
   // keep_slope, keep_factors: the derivatives at hand serve for the first step. first_shrinkage: what a second step
   // with them would be of it, a tenth with a near solution's.
   bool newton_one_segment(bool keep_slope, double tolerance, const OnTheWay* way = nullptr,

@@ -1,7 +1,5 @@
 #include "fam/stability.h"
 
-#include "fam/varied_march.h"
-
 #include <Eigen/Dense>
 
 #include <cmath>
@@ -68,6 +66,12 @@ Stability stability(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
   });
   if (!finite && !is_free) result.log_determinant = std::numeric_limits<double>::quiet_NaN();
   return result;
+}
+
+void ConjugatePoints::meet(const Matrix3d& turn_B) {
+  const Matrix3d over_arc = turn_B * back_;
+  count_ += negative_eigenvalues(over_arc, over_arc.determinant());
+  back_ = turn_B.inverse();
 }
 
 CrossTurn cross_turn(const LoadedRod<3>& rod, std::span<const ArcRange> segments,

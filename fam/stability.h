@@ -2,7 +2,7 @@
 // clamp.
 #pragma once
 
-#include "fam/loaded_rod.h"
+#include "fam/varied_march.h"
 
 #include <complex>
 #include <optional>
@@ -26,6 +26,33 @@ bool agree(const Stability& a, const Stability& b, double share = 1);
 // cost; the small turn at the clamp that this makes is no conjugate point.
 Stability stability(const LoadedRod<3>& rod, std::span<const ArcRange> segments, std::span<const SectionState<3>> nodes,
                     bool is_free = false);
+
+// The conjugate points that a march met which carries other small motions, too: those that leave the tip free are made
+// of them, arc by arc from the tip to the clamp. stability() without a march of its own.
+class ConjugatePoints {
+ public:
+  // Of a segment that starts at this node with N small motions: of the tip its three turns; of another node its turn,
+  // force and moment, in these units.
+  void start(const SectionState<3>& node) { back_ = node.rotation_SB; }
+  template <int N>
+  void after_arc(const SectionState<3>& proximal, const Fields<3, N>& fields) {
+    meet(proximal.rotation_SB.transpose() * fields.turn * start_.topRows<N>());
+  }
+  template <int N>
+  void end(const Fields<3, N>& fields, double force_unit, double moment_unit) {
+    const Eigen::Matrix<double, N, 3> free = start_.topRows<N>() * (fields.turn * start_.topRows<N>()).inverse();
+    start_ << Matrix3d::Identity(), fields.force_N * free / force_unit, fields.moment_Nmm * free / moment_unit;
+  }
+  int count() const { return count_; }
+
+ private:
+  void meet(const Matrix3d& turn_B);  // the turns of a section in the base frame
+
+  // The motions that leave the tip free and turn the node as unit vectors do, in those it starts with.
+  Eigen::Matrix<double, 9, 3> start_ = Eigen::Matrix<double, 9, 3>::Identity();
+  Matrix3d back_;  // what turns the last section's turns back into those of the node
+  int count_ = 0;
+};
 
 // Of a rod on its axis that nothing tells one direction across from another: the small turns at the clamp over those
 // of the free tip, about the axes y and z as one complex number. Its zeros are the double critical points, whatever
