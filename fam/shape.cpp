@@ -42,6 +42,10 @@ RigidMotion part_of(const RodSeries<double, 3, terms>& series, double part, Sect
   return step_of_part<with_shear>(series, part, wrench);
 }
 
+// Of Lobatto's rule of order six on [0, 1], the series' own; the ends of an arc are at hand.
+constexpr std::array<double, 2> lobatto_points{0.27639320225002103, 0.72360679774997897};
+constexpr double lobatto_weight = 5. / 12, lobatto_end_weight = 1. / 12;
+
 SectionPose pose_by_bezier(const Arc& arc, const SectionPose& proximal, double fraction) {
   SectionPose pose = proximal.then(twist(arc.twist_before_rad));
   const double angle = arc.screw.rotation.norm();
@@ -169,14 +173,15 @@ BasicWrench<double, D> BasicShape<D>::wrench_towards(ArcInterior<D>& arc, double
   if (!span.distributed) return total;
   const double part = 1 - fraction;
   total.force_N += part * span.fixed_force_B_N;
-  for (std::size_t i = 0; i < gauss_points.size(); ++i) {
-    const BasicPose<D> at = arc.pose(fraction + part * gauss_points[i]);
-    const double weight = part * gauss_weights[i];
-    const Vector<double, D> follower = weight * (at.rotation_BS * span.follower_force_S_N);
-    const Vector<double, D> force = weight * span.fixed_force_B_N + follower;
+  const auto add = [&](const BasicPose<D>& at, double weight) {
+    const Vector<double, D> follower = part * weight * (at.rotation_BS * span.follower_force_S_N);
+    const Vector<double, D> force = part * weight * span.fixed_force_B_N + follower;
     total.force_N += follower;
     total.moment_Nmm += arm_cross(Vector<double, D>(at.position_B_mm - pose.position_B_mm), force);
-  }
+  };
+  add(pose, lobatto_end_weight);
+  add(rod_.poses[k + 1], lobatto_end_weight);
+  for (const double point : lobatto_points) add(arc.pose(fraction + part * point), lobatto_weight);
   return total;
 }
 
