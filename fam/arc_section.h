@@ -69,22 +69,27 @@ class ElasticSection {
   explicit ElasticSection(const BasicArcConstants<D>& arc) : arc_(arc) {}
 
   BasicScrew<T, D> strain(const BasicWrench<T, D>& wrench) const {
-    BasicScrew<T, D> screw{as<T>(arc_.rest_rotation) + as<T>(arc_.angular_compliance).cwiseProduct(wrench.moment_Nmm),
+    BasicScrew<T, D> screw{as<T>(arc_.rest_rotation) + give(arc_.angular_compliance, wrench.moment_Nmm),
                            as<T>(arc_.rest_translation_mm)};
     if constexpr (with_shear) {
-      screw.translation_mm += as<T>(arc_.linear_compliance).cwiseProduct(wrench.force_N);
+      screw.translation_mm += give(arc_.linear_compliance, wrench.force_N);
     }
     return screw;
   }
   void begin_series(const BasicScrew<T, D>&) const {}
   void next(std::size_t, const Angular<T, D>& moment_Nmm, const Vector<T, D>& force_N, Angular<T, D>& rotation,
             Vector<T, D>& translation_mm) const {
-    rotation = as<T>(arc_.angular_compliance).cwiseProduct(moment_Nmm);
-    if constexpr (with_shear) translation_mm = as<T>(arc_.linear_compliance).cwiseProduct(force_N);
+    rotation = give(arc_.angular_compliance, moment_Nmm);
+    if constexpr (with_shear) translation_mm = give(arc_.linear_compliance, force_N);
   }
   bool collapsed() const { return false; }
 
  private:
+  template <class Compliance, class V>
+  static V give(const Compliance& compliance, const V& by) {
+    return as<Factor<T>>(compliance).cwiseProduct(by);
+  }
+
   const BasicArcConstants<D>& arc_;
 };
 

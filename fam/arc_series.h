@@ -42,7 +42,7 @@ RodSeries<T, D, terms> rod_series(Section&& section, const ArcForces<T, D>* forc
     }
     Vector<T, D> force = force_sum;
     const Angular<T, D> moment = moment_sum;
-    const T share = T(1.0 / static_cast<double>(k + 1));
+    const Factor<T> share(1.0 / static_cast<double>(k + 1));
     if (forces) {
       force += fixed_N[k];
       if (k == 0) force += forces->follower_S_N;
@@ -60,10 +60,10 @@ RodSeries<T, D, terms> rod_series(Section&& section, const ArcForces<T, D>* forc
 // Sum of the coefficients from `from` on times weights.
 template <class V, std::size_t terms, std::size_t count>
 V weighted(const std::array<V, terms>& c, const std::array<double, count>& weights, std::size_t from = 0) {
-  using T = typename V::Scalar;
-  V sum = T(weights[0]) * c[from];
+  using Weight = Factor<typename V::Scalar>;
+  V sum = Weight(weights[0]) * c[from];
 #pragma GCC unroll 8
-  for (std::size_t k = 1; k < count; ++k) sum += T(weights[k]) * c[from + k];
+  for (std::size_t k = 1; k < count; ++k) sum += Weight(weights[k]) * c[from + k];
   return sum;
 }
 

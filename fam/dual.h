@@ -2,9 +2,7 @@
 // fam/arc_law.h. Exact derivatives of the discrete march, at about 1 + N/2 times its cost.
 #pragma once
 
-#include <Eigen/Core>
-
-#include <cmath>
+#include "fam/screw.h"
 
 namespace fam {
 
@@ -29,6 +27,8 @@ struct Dual {
   friend Dual operator*(const Dual& a, const Dual& b) {
     return {a.value * b.value, a.value * b.slope + b.value * a.slope};
   }
+  friend Dual operator*(double a, const Dual& b) { return {a * b.value, a * b.slope}; }
+  friend Dual operator*(const Dual& a, double b) { return b * a; }
   friend Dual operator/(const Dual& a, const Dual& b) {
     const double quotient = a.value / b.value;
     return {quotient, (a.slope - quotient * b.slope) / b.value};
@@ -40,6 +40,20 @@ struct Dual {
   }
   friend Dual sin(const Dual& a) { return {std::sin(a.value), std::cos(a.value) * a.slope}; }
 };
+
+// It has no derivatives to be carried along.
+template <int N>
+struct FactorOf<Dual<N>> {
+  using Type = double;
+};
+
+// Their derivatives by x: (C - B) / 2, E - C / 2, (3 F - E) / 2.
+template <int N>
+BasicCoefficients<Dual<N>> small_screw_coefficients(const Dual<N>& x) {
+  const auto [E, F] = inner_coefficients(x.value);
+  const auto [A, B, C] = small_screw_coefficients(x.value);
+  return {{A, (C - B) / 2 * x.slope}, {B, (E - C / 2) * x.slope}, {C, (3 * F - E) / 2 * x.slope}};
+}
 
 inline double value_of(double x) {
   return x;
@@ -66,5 +80,13 @@ struct NumTraits<fam::Dual<N>> : NumTraits<double> {
     AddCost = N,
     MulCost = 3 * N
   };
+};
+template <int N>
+struct ScalarBinaryOpTraits<double, fam::Dual<N>, internal::scalar_product_op<double, fam::Dual<N>>> {
+  using ReturnType = fam::Dual<N>;
+};
+template <int N>
+struct ScalarBinaryOpTraits<fam::Dual<N>, double, internal::scalar_product_op<fam::Dual<N>, double>> {
+  using ReturnType = fam::Dual<N>;
 };
 }  // namespace Eigen

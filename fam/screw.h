@@ -39,6 +39,14 @@ constexpr int rotations_of(int dimension) {
 template <class T, int D>
 using Angular = Vector<T, rotations_of(D)>;
 
+// What a constant is that T is multiplied by.
+template <class T>
+struct FactorOf {  // fam/dual.h has another
+  using Type = T;
+};
+template <class T>
+using Factor = typename FactorOf<T>::Type;
+
 // A vector's numbers as T.
 template <class T, int D>
 Vector<T, D> as(const Eigen::Matrix<double, D, 1>& v) {
@@ -81,7 +89,7 @@ BasicScrew<T, D> operator+(const BasicScrew<T, D>& a, const BasicScrew<T, D>& b)
 }
 template <class T, int D>
 BasicScrew<T, D> operator*(double factor, const BasicScrew<T, D>& a) {
-  return {a.rotation * T(factor), a.translation_mm * T(factor)};
+  return {a.rotation * Factor<T>(factor), a.translation_mm * Factor<T>(factor)};
 }
 
 // Lie bracket of se(D).
@@ -104,7 +112,7 @@ BasicWrench<T, D> operator+(const BasicWrench<T, D>& a, const BasicWrench<T, D>&
 }
 template <class T, int D>
 BasicWrench<T, D> operator*(double factor, const BasicWrench<T, D>& a) {
-  return {a.force_N * T(factor), a.moment_Nmm * T(factor)};
+  return {a.force_N * Factor<T>(factor), a.moment_Nmm * Factor<T>(factor)};
 }
 
 // A = sin t / t, B = (1 - cos t) / t^2, C = (t - sin t) / t^3.
@@ -114,17 +122,27 @@ struct BasicCoefficients {
 };
 using ScrewCoefficients = BasicCoefficients<double>;
 
-// For an angle below 1 rad: the first dropped term is below 1/19! = 8e-18.
+// For an angle t below 1 rad, x = t^2: B = 1/2 - x E, C = 1/6 - x F. The first dropped term of B and C is below 1/19! =
+// 8e-18.
+template <class T>
+struct BasicInnerCoefficients {
+  T E, F;
+};
+template <class T>
+BasicInnerCoefficients<T> inner_coefficients(const T& x) {
+  // clang-format off
+  return {1 / 24. - x * (1 / 720. - x * (1 / 40320. - x * (1 / 3628800. - x * (1 / 479001600.
+            - x * (1 / 87178291200. - x * (1 / 20922789888000.)))))),
+          1 / 120. - x * (1 / 5040. - x * (1 / 362880. - x * (1 / 39916800. - x * (1 / 6227020800.
+            - x * (1 / 1307674368000. - x * (1 / 355687428096000.))))))};
+  // clang-format on
+}
+
 template <class T>
 BasicCoefficients<T> small_screw_coefficients(const T& x) {
-  // clang-format off
-  return {1 - x * (1 / 6. - x * (1 / 120. - x * (1 / 5040. - x * (1 / 362880. - x * (1 / 39916800.
-            - x * (1 / 6227020800. - x * (1 / 1307674368000. - x * (1 / 355687428096000.)))))))),
-          1 / 2. - x * (1 / 24. - x * (1 / 720. - x * (1 / 40320. - x * (1 / 3628800. - x * (1 / 479001600.
-            - x * (1 / 87178291200. - x * (1 / 20922789888000.))))))),
-          1 / 6. - x * (1 / 120. - x * (1 / 5040. - x * (1 / 362880. - x * (1 / 39916800. - x * (1 / 6227020800.
-            - x * (1 / 1307674368000. - x * (1 / 355687428096000.)))))))};
-  // clang-format on
+  const auto [E, F] = inner_coefficients(x);
+  const T C = 1 / 6. - x * F;
+  return {1 - x * C, 1 / 2. - x * E, C};
 }
 
 template <class T>
