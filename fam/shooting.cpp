@@ -220,9 +220,9 @@ bool Shooting<D>::newton_one_segment(bool keep_slope, double tolerance, const On
       if (std::isfinite(last)) slope_ += (residual - last_residual - slope_ * step) * step.transpose() / (last * last);
     } else {
       ConjugatePoints points;
-      const bool counts = way && way->conjugate_points;
-      evaluate_segment<rotations>(0, equations, counts ? &points : nullptr);
-      if (counts) *way->conjugate_points = points.count();
+      int* conjugate_points = points_wanted(way);
+      evaluate_segment<rotations>(0, equations, conjugate_points ? &points : nullptr);
+      if (conjugate_points) *conjugate_points = points.count();
       residual = equations.residual.template head<rotations>();
       slope_ = equations.arrival.template topLeftCorner<rotations, rotations>();
     }
@@ -314,7 +314,7 @@ bool Shooting<D>::newton_segments(bool keep_factors, double tolerance, const OnT
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
     ++newton_steps_;
     bool small;
-    if (!evaluate_system(keep_factors, small, way ? way->conjugate_points : nullptr)) return false;
+    if (!evaluate_system(keep_factors, small, points_wanted(way))) return false;
     system_.substitute();
     if (!system_.right().allFinite()) return false;
     const double turn_rad = largest_turn_rad(system_.right()), size = system_.right().cwiseAbs().maxCoeff();

@@ -239,6 +239,7 @@ class Shooting {
   bool has_few_arcs() const;
   void reserve_few_arcs();
   bool solve_few_arcs();
+  static int* points_wanted(const OnTheWay* way) { return D == 3 && way ? way->conjugate_points : nullptr; }
   // points: wanted of a rod in space, where not null.
   template <int N>
   void evaluate_segment(std::size_t k, SegmentEquations& equations, ConjugatePoints* points = nullptr) const;
