@@ -1,7 +1,7 @@
 // How the load of a boundary value problem grows from zero, and which steps keep to the branch.
 //
-// Where the loads are too small for a second equilibrium (Shooting::one_equilibrium), or there is none because the
-// moments are known beforehand, the full load is solved for at once. So it is where that ends beside the rest shape,
+// Where the loads are too small for a second equilibrium (Shooting::one_equilibrium), all but follow, or there is none
+// because the moments are known beforehand, the full load is solved for at once. So it is where that ends beside the rest shape,
 // without a critical point on the way (ends_beside_rest). Elsewhere it grows from zero in steps; a step is taken only
 // if Newton converges as it does near a solution (Contraction), and no segment end turns by more than largest_turn_rad
 // in it nor lies farther than largest_surprise_rad, or than a share of the turn, from where the last steps, or the

@@ -1,6 +1,7 @@
 #include "fam/load_length.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace fam {
 
@@ -62,6 +63,39 @@ double spin_rate_per_Nmm2(const Span& span) {
 double linear_compliance_per_N(const Span& span) {
   const double axial = span.stiffness.axial_N ? 1 / *span.stiffness.axial_N : 0;
   return span.stiffness.shear_N ? std::max(axial, 1 / span.stiffness.shear_N->minCoeff()) : axial;
+}
+
+double clamp_straying(std::span<const Span> spans, bool planar) {
+  double force_N = 0, moment_Nmm = 0;                          // F, M
+  double turn = 1, force_change_N = 0, moment_change_Nmm = 0;  // |phi|, |Gamma|, |Delta|
+  for (std::size_t i = spans.size(); i-- > 0;) {
+    const Span& span = spans[i];
+    const double h_mm = span.length_mm();
+    const double fixed_N = span.fixed_load_B.force_N.norm(), fixed_N_per_mm = span.fixed_force_B_N_per_mm.norm();
+    const double fixed_Nmm = span.fixed_load_B.moment_Nmm.norm() + span.fixed_force_arms_BS_Nmm.norm();
+    const double distal_N = force_N + fixed_N + span.follower_load_S.force_N.norm();
+    force_N = distal_N + h_mm * (fixed_N_per_mm + span.follower_force_S_N_per_mm.norm());
+    moment_Nmm += fixed_Nmm + span.follower_load_S.moment_Nmm.norm();
+    const double moment_sum_Nmm2 = h_mm * (moment_Nmm + h_mm * (2 * distal_N + force_N) / 6);  // int M ds
+    moment_Nmm += h_mm * (distal_N + force_N) / 2;
+
+    const double stiffness_Nmm2 = planar ? span.stiffness.bending_Nmm2.minCoeff() : least_stiffness_Nmm2(span);
+    const double largest_Nmm2 = std::max(span.stiffness.torsion_Nmm2, span.stiffness.bending_Nmm2.maxCoeff());
+    const double by_M = planar ? 1 : std::exp(moment_sum_Nmm2 * (1 / stiffness_Nmm2 - 1 / largest_Nmm2) / 2);
+    const double w = h_mm * std::sqrt(force_N / stiffness_Nmm2), cosh = std::cosh(w);
+    const double first = w > 1e-4 ? std::sinh(w) / w : 1, second = w > 1e-4 ? (cosh - 1) / (w * w) : 0.5;
+    // Over the units in which the span's curvature turns its end by 1; the larger turn at its end with f on all of it,
+    // of which (sinh w - w) / w^3 < second / 3 comes back.
+    const double moment_unit_Nmm = stiffness_Nmm2 / h_mm, force_unit_N = moment_unit_Nmm / h_mm;
+    const double m = (moment_change_Nmm + fixed_Nmm * turn) / moment_unit_Nmm;
+    const double n = (force_change_N + fixed_N * turn) / force_unit_N;
+    const double f = fixed_N_per_mm * h_mm / force_unit_N, comes_back = by_M * f * second / 3;
+    if (!(comes_back < 1)) return std::numeric_limits<double>::infinity();
+    turn = (turn + by_M * (m * first + n * second)) / (1 - comes_back);
+    moment_change_Nmm = by_M * (m * cosh + n * first + turn * f * second) * moment_unit_Nmm;
+    force_change_N = by_M * (n * cosh + (m * w * w + turn * f) * first) * force_unit_N;
+  }
+  return turn - 1;
 }
 
 bool strains_are_constant(std::span<const Span> spans, bool planar) {

@@ -66,6 +66,7 @@ struct LoadBounds {
   double unique_share = 0;           // of what leaves it one equilibrium (load_length.h), of a planar rod in its plane
   double unique_share_in_space = 0;  // the same in space
   double minimum_share = std::numeric_limits<double>::infinity();  // of what leaves it but minima of an energy
+  double clamp_straying = std::numeric_limits<double>::infinity();  // of loads without an energy (load_length.h)
   double turn_rad = 0;           // by moments, and in space by rest curvature and tendons
   double turn_in_space_rad = 0;  // by all of these
   double strain = 0;             // stretch and shear
@@ -135,6 +136,7 @@ class Shooting {
   const LoadBounds& bounds() const { return bounds_; }
   // The loads are too small for a second equilibrium, of a planar rod in its plane.
   bool one_equilibrium() const;
+  bool loads_all_but_follow() const { return bounds_.clamp_straying < 1; }
   // Then the one found is stable, in space.
   bool is_surely_stable() const {
     const bool is_short = bounds_.unique_share_in_space <= 1 && bounds_.turn_in_space_rad <= stable_turn_rad;
@@ -171,12 +173,13 @@ class Shooting {
   }
   // From the nodes as they are to those of the present load.
   bool newton(double tolerance, const OnTheWay* way = nullptr);
-  // The full load from start_from_clamp(); first with a quarter of the arcs or one, whose
-  // derivatives then serve for all.
+  // The full load from start_from_clamp(), first with a quarter of the arcs or one, whose derivatives then serve for
+  // all; or from a march from the tip where the loads all but follow.
   bool solve_at_once();
   // The full load from the nodes as they are, or as start_from_clamp() leaves them.
   bool solve_from_here();
   bool solve_from_start();
+  bool solve_from_tip();
   // The same near the solution of another one, whatever its arcs, from which the tip turns by about so much: of one
   // segment, with that one's derivatives in the first step.
   bool solve_near(const Shooting* other, const Angular<double, D>& tip_turn_B);
@@ -239,6 +242,7 @@ class Shooting {
   bool has_few_arcs() const;
   void reserve_few_arcs();
   bool solve_few_arcs();
+  bool newton_from_rigid();
   static int* points_wanted(const OnTheWay* way) { return D == 3 && way ? way->conjugate_points : nullptr; }
   // points: wanted of a rod in space, where not null.
   template <int N>

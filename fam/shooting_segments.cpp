@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace fam {
 namespace {
@@ -40,7 +41,7 @@ struct UniqueLength {
 template <int D>
 bool Shooting<D>::one_equilibrium() const {
   const bool is_short = bounds_.unique_share <= 1 && (D == 2 || bounds_.turn_rad <= unique_turn_rad);
-  return (is_short || bounds_.minimum_share < 1) && bounds_.strain <= unique_strain;
+  return (is_short || bounds_.minimum_share < 1 || loads_all_but_follow()) && bounds_.strain <= unique_strain;
 }
 
 template <int D>
@@ -100,7 +101,12 @@ void Shooting<D>::cut_into_segments() {
   bounds_.unique_share = unique.share();
   bounds_.unique_share_in_space = in_space.share();
   if (scene::is_conservative(bounds)) bounds_.minimum_share = in_space.minimum_share();
+  else if (bounds_.strain <= unique_strain) bounds_.clamp_straying = clamp_straying(bounds, planar);
   segments_.push_back({0, end_arc});
+  if (loads_all_but_follow()) {  // then no change at the tip grows on the way
+    segments_.assign(1, {0, rod_.arc_count()});
+    softness_.assign(1, std::accumulate(softness_.begin(), softness_.end(), 0.));
+  }
   std::reverse(segments_.begin(), segments_.end());
   std::reverse(softness_.begin(), softness_.end());
   nodes_.resize(segments_.size());

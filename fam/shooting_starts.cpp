@@ -135,9 +135,7 @@ template <int D>
 bool Shooting<D>::solve_from_start() {
   if (segments_.size() > 1 || !one_equilibrium() || bounds_.unique_share > rigid_share) return solve_from_here();
   set_load(1);
-  if constexpr (D == 3) slope_ = -nodes_[0].rotation_SB.transpose();
-  else slope_(0, 0) = -1;
-  return newton_one_segment(true, newton_tolerance_, nullptr, 1);
+  return newton_from_rigid();
 }
 
 template <int D>
@@ -151,6 +149,7 @@ bool Shooting<D>::solve_few_arcs() {
 
 template <int D>
 bool Shooting<D>::solve_at_once() {
+  if (loads_all_but_follow()) return solve_from_tip();
   if (has_few_arcs() && solve_few_arcs()) {
     set_load(1);
     nodes_ = few_arcs_->nodes_;
@@ -160,6 +159,23 @@ bool Shooting<D>::solve_at_once() {
   }
   start_from_clamp();
   return solve_from_start();
+}
+
+// All but a rigid turn of the tip away.
+template <int D>
+bool Shooting<D>::solve_from_tip() {
+  set_load(1);
+  Node state{Rotation::Identity(), {}};
+  rod_.march({0, rod_.arc_count()}, state);
+  nodes_[0] = {state.rotation_SB.transpose(), {}};
+  return newton_from_rigid();
+}
+
+template <int D>
+bool Shooting<D>::newton_from_rigid() {
+  if constexpr (D == 3) slope_ = -nodes_[0].rotation_SB.transpose();
+  else slope_(0, 0) = -1;
+  return newton_one_segment(true, newton_tolerance_, nullptr, 1);
 }
 
 template <int D>

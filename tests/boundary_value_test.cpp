@@ -18,6 +18,7 @@ namespace {
 using Eigen::Vector3d;
 using fam::Law;
 using scene::Frame;
+using support::fact;
 using support::slender;
 using support::uniform_rod;
 
@@ -106,16 +107,6 @@ TEST(BoundaryValue, ObservedOrders) {
   }
 }
 
-// Euler: an axial force just beyond pi^2 EI / (4 L^2). Exactly on the axis the straight rod, unstable; with a small
-// lateral force the buckled shape, stable; just below it the straight rod, stable.
-
-int fact(const scene::Equilibrium& result, const std::string& key) {
-  for (const auto& [name, value] : result.model) {
-    if (name == key) return std::get<int>(value);
-  }
-  return -1;
-}
-
 // A straight rod on its axis is an equilibrium under any load, and solved for at once; whether it stays there its second
 // variation tells. Euler: pi^2/4 EI/L^2.
 TEST(BoundaryValue, OnItsAxisARodIsSolvedAtOnce) {
@@ -145,6 +136,8 @@ TEST(BoundaryValue, SmallForcesOnACoilAreSolvedAtOnce) {
   }
 }
 
+// Euler: an axial force just beyond pi^2 EI / (4 L^2). Exactly on the axis the straight rod, unstable; with a small
+// lateral force the buckled shape, stable; just below it the straight rod, stable.
 TEST(BoundaryValue, EulerColumn) {
   const double critical_N = pi * pi * 750 / (4 * 1600);
   const scene::Equilibrium below = solved(tip_force(slender(750, 500), {-0.999 * critical_N, 0, 0}), 1e-3);

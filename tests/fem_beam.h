@@ -17,6 +17,7 @@ using fem_benchmark::bare;
 using fem_benchmark::solved;
 using fem_reference::Options;
 using scene::Frame;
+using support::fact;
 using support::uniform_rod;
 
 constexpr double pi = std::numbers::pi;
@@ -40,13 +41,6 @@ inline scene::Stiffness stiffness(double torsion_Nmm2, double bending_Nmm2, doub
 
 inline Eigen::Vector3d tip_mm(const scene::Scene& scene, const fem_reference::Options& options) {
   return fem_benchmark::solved(scene, options).tip().position_B_mm;
-}
-
-inline int fact(const scene::Equilibrium& found, const std::string& name) {
-  for (const scene::Fact& f : found.model) {
-    if (f.first == name) return std::get<int>(f.second);
-  }
-  return -1;
 }
 
 inline scene::Scene two_sections(std::vector<scene::Load> loads) {

@@ -1,7 +1,10 @@
 // What tests share: reference data, scenes, the rod that must fail.
 #pragma once
 
+#include "scene/equilibrium.h"
 #include "scene/scene.h"
+
+#include <gtest/gtest.h>
 
 #include <map>
 #include <string>
@@ -30,5 +33,15 @@ scene::Stiffness slender(double bending_Nmm2, double torsion_Nmm2);
 
 // The same scene with every stiffness multiplied: the twin that must fail a gate.
 scene::Scene stiffer(scene::Scene scene, double factor = 1.05);
+
+// A fact of the model, as Equilibrium::model names it; a test that asks for one that is not there fails.
+template <class T = int>
+T fact(const scene::Equilibrium& result, const std::string& name) {
+  for (const auto& [key, value] : result.model) {
+    if (key == name) return std::get<T>(value);
+  }
+  ADD_FAILURE() << "no fact " << name << ": " << result.message;
+  return {};
+}
 
 }  // namespace support

@@ -27,6 +27,7 @@ using scene::Load;
 using scene::Moment;
 using scene::Scene;
 using scene::Tendon;
+using support::fact;
 using support::slender;
 using support::uniform_rod;
 
@@ -71,15 +72,6 @@ inline Equilibrium by_fem(const Scene& scene, int elements = 60, int order = 3) 
 
 inline Equilibrium by_exact(const Scene& scene, double tolerance = 1e-12) {
   return exact_reference::solve(scene, {.tolerance = tolerance});
-}
-
-template <class T>
-T fact(const Equilibrium& result, const std::string& name) {
-  for (const auto& [key, value] : result.model) {
-    if (key == name) return std::get<T>(value);
-  }
-  ADD_FAILURE() << "no fact " << name << ": " << result.message;
-  return {};
 }
 
 inline Vector3d tip(const Equilibrium& result) {
