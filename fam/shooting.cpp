@@ -202,7 +202,8 @@ bool Contraction::is_lost(const OnTheWay& way, double turn_rad, bool fresh) {
 // One segment: the tip's rotation, on the stack. Derivatives are fresh while the steps are long, and after that mended
 // by Broyden's secant update. slope_ holds them between calls, `keep_slope` says whether it does at the start.
 template <int D>
-bool Shooting<D>::newton_one_segment(bool keep_slope, double tolerance, const OnTheWay* way, double first_shrinkage) {
+bool Shooting<D>::newton_one_segment(bool keep_slope, double tolerance, const OnTheWay* way, double first_shrinkage,
+                                     double least_shrinkage) {
   SegmentEquations equations;
   Angular<double, D> step = Angular<double, D>::Zero();
   Angular<double, D> last_residual = step;
@@ -240,7 +241,7 @@ bool Shooting<D>::newton_one_segment(bool keep_slope, double tolerance, const On
       return equations.mismatch_is_small;
     nodes_[0].rotation_SB = turned(nodes_[0].rotation_SB, step);
     // The next step would be smaller by what this one was, or squared after fresh derivatives.
-    const double shrinkage = std::isfinite(last) ? std::min(size / last, 0.1) : first_shrinkage;
+    const double shrinkage = std::isfinite(last) ? std::clamp(size / last, least_shrinkage, 0.1) : first_shrinkage;
     const double next = at_clamp * (keep_slope ? size * shrinkage : newton_curvature * size * size);
     expected_turn_rad_ = next;
     if (tells && next <= tolerance) return equations.mismatch_is_small;

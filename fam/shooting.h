@@ -242,7 +242,7 @@ class Shooting {
   bool has_few_arcs() const;
   void reserve_few_arcs();
   bool solve_few_arcs();
-  bool newton_from_rigid();
+  bool newton_from_rigid(double first_shrinkage, double least_shrinkage);
   static int* points_wanted(const OnTheWay* way) { return D == 3 && way ? way->conjugate_points : nullptr; }
   // points: wanted of a rod in space, where not null.
   template <int N>
@@ -255,9 +255,10 @@ class Shooting {
   // finite, or singular.
   bool evaluate_system(bool keep_factors, bool& mismatches_are_small, int* conjugate_points = nullptr);
   // keep_slope, keep_factors: the derivatives at hand serve for the first step. first_shrinkage: what a second step
-  // with them would be of it, a tenth with a near solution's.
+  // with them would be of it, a tenth with a near solution's; least_shrinkage: what a next one is expected to be at
+  // least.
   bool newton_one_segment(bool keep_slope, double tolerance, const OnTheWay* way = nullptr,
-                          double first_shrinkage = 0.1);
+                          double first_shrinkage = 0.1, double least_shrinkage = 0);
   bool newton_segments(bool keep_factors, double tolerance, const OnTheWay* way = nullptr);
   // Over segment k from its node, which the state is; fills marched_.
   void march_remembered(std::size_t k, Node& state) { rod_.march(segments_[k], state, marched_); }

@@ -135,7 +135,7 @@ template <int D>
 bool Shooting<D>::solve_from_start() {
   if (segments_.size() > 1 || !one_equilibrium() || bounds_.unique_share > rigid_share) return solve_from_here();
   set_load(1);
-  return newton_from_rigid();
+  return newton_from_rigid(1, 0);
 }
 
 template <int D>
@@ -161,21 +161,21 @@ bool Shooting<D>::solve_at_once() {
   return solve_from_start();
 }
 
-// All but a rigid turn of the tip away.
+// All but a rigid turn of the tip away: the step back leaves what the clamp strays of it, and so does the next.
 template <int D>
 bool Shooting<D>::solve_from_tip() {
   set_load(1);
   Node state{Rotation::Identity(), {}};
   rod_.march({0, rod_.arc_count()}, state);
   nodes_[0] = {state.rotation_SB.transpose(), {}};
-  return newton_from_rigid();
+  return newton_from_rigid(bounds_.clamp_straying, std::min(bounds_.clamp_straying, 0.1));
 }
 
 template <int D>
-bool Shooting<D>::newton_from_rigid() {
+bool Shooting<D>::newton_from_rigid(double first_shrinkage, double least_shrinkage) {
   if constexpr (D == 3) slope_ = -nodes_[0].rotation_SB.transpose();
   else slope_(0, 0) = -1;
-  return newton_one_segment(true, newton_tolerance_, nullptr, 1);
+  return newton_one_segment(true, newton_tolerance_, nullptr, first_shrinkage, least_shrinkage);
 }
 
 template <int D>
