@@ -36,6 +36,13 @@ scene::Status BasicBoundaryValue<D>::run() {
 }
 
 template <int D>
+scene::Status BasicBoundaryValue<D>::run_at_once() {
+  if (loads_overflow()) return scene::Status::not_finite;
+  shooting_.forget_work();
+  return growth_.run_at_once(shooting_) ? place_arcs() : scene::Status::not_converged;
+}
+
+template <int D>
 scene::Status BasicBoundaryValue<D>::run_from(const BasicBoundaryValue& fewer_arcs) {
   why_ = nullptr;
   const bool solved = shooting_.solve_from(fewer_arcs.shooting_);

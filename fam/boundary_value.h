@@ -24,6 +24,8 @@ class BasicBoundaryValue {
   // From no load, which the way must start with, to the full load. converged, load_step_too_small, work_limit,
   // tendon_collapsed, not_converged or not_finite; message() says why.
   scene::Status run();
+  // The same without growing any load, if it is known to lead there; else not_converged.
+  scene::Status run_at_once();
   // Along the way from the shape that the rod had (Shooting::start_at), if known as another one's solution, and to
   // where the tip has turned by about so much; also limit_point.
   template <class StateAt>

@@ -87,6 +87,11 @@ Status Engine::run() {
   return visit_to_change([](auto& solver) { return solver.run(); });
 }
 
+Status Engine::run_at_once() {
+  if (is_march_) return run();
+  return is_planar_ ? planar_boundary_value_.run_at_once() : boundary_value_.run_at_once();
+}
+
 Status Engine::run_from(const Engine& fewer_arcs) {
   if (is_march_) return run();
   return is_planar_ ? planar_boundary_value_.run_from(fewer_arcs.planar_boundary_value_)

@@ -19,6 +19,8 @@ class Engine {
   void set(const Problem& problem, std::span<const int> arcs_per_span, const Engine* fewer_arcs = nullptr);
 
   scene::Status run();
+  // A march, or a boundary value problem whose loads need not be grown; else not_converged.
+  scene::Status run_at_once();
   // From the solution with fewer arcs that this was set by; a march starts anew.
   scene::Status run_from(const Engine& fewer_arcs);
   // Along the problem's way from the shape that the rod had, if known as another engine's solution, and to where the

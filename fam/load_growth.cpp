@@ -240,17 +240,22 @@ void LoadGrowth<D>::forget_way() {
 
 template <int D>
 scene::Status LoadGrowth<D>::run(Shooting<D>& shooting) {
-  forget_way();
-  if (shooting.moments_are_known()) return solve_known_moments(shooting);
-  // On its axis a rod is straight under all loads, and what is left to tell is whether it stays there.
-  const bool is_known =
-      shooting.one_equilibrium() || scene::symmetry_of(shooting.rod().way().to) == scene::Symmetry::axis;
-  if (is_known && shooting.solve_at_once()) return scene::Status::converged;
-  if (watches_stability_ && ends_beside_rest(shooting)) return scene::Status::converged;
+  if (run_at_once(shooting)) return scene::Status::converged;
+  if (shooting.moments_are_known()) return end_.status;
   load_steps_ = 0;
   shooting.start_unloaded();
   const LoadBounds& bounds = shooting.bounds();
   return grow(shooting, bounds.load_length * bounds.load_length + bounds.turn_rad, true);
+}
+
+template <int D>
+bool LoadGrowth<D>::run_at_once(Shooting<D>& shooting) {
+  forget_way();
+  if (shooting.moments_are_known()) return solve_known_moments(shooting) == scene::Status::converged;
+  // On its axis a rod is straight under all loads, and what is left to tell is whether it stays there.
+  const bool is_known =
+      shooting.one_equilibrium() || scene::symmetry_of(shooting.rod().way().to) == scene::Symmetry::axis;
+  return (is_known && shooting.solve_at_once()) || (watches_stability_ && ends_beside_rest(shooting));
 }
 
 // There is no other equilibrium, so that none has to be grown to. Arcs as short as the law takes lead so near that

@@ -45,6 +45,8 @@ class LoadGrowth {
   // From no load to the full load. converged, load_step_too_small, not_converged, work_limit or tendon_collapsed; where
   // the moments are known converged or arc_not_converged.
   scene::Status run(Shooting<D>& shooting);
+  // The same without growing any load. False: that is left.
+  bool run_at_once(Shooting<D>& shooting);
   // From the shape that the nodes hold at the start of the way, if known as another one's solution, and to where the
   // tip has turned by about so much; also limit_point.
   scene::Status run_on(Shooting<D>& shooting, const Shooting<D>* last, const Angular<double, D>& tip_turn_B);

@@ -116,6 +116,12 @@ double largest_load_length(std::span<const Span> spans, std::span<const int> arc
   return largest;
 }
 
+double across_stiffness_Nmm2(const Span& span) {
+  Vector3d stiffness_Nmm2 = stiffness_of(span);
+  std::sort(stiffness_Nmm2.begin(), stiffness_Nmm2.end());
+  return std::sqrt(stiffness_Nmm2[0] * stiffness_Nmm2[1]);
+}
+
 double size_of_change(std::span<const Span> from, std::span<const Span> to) {
   LoadSum force_N(Sum::vectors), moment_Nmm(Sum::vectors);
   double load_length = 0, turn_rad = 0;

@@ -143,6 +143,10 @@ bool strains_are_constant(std::span<const scene::Span> spans, bool planar);
 // The largest load length by forces of an arc, with the least stiffness of its span.
 double largest_load_length(std::span<const scene::Span> spans, std::span<const int> arcs_per_span);
 
+// The least and the middle of GJ, EI_y, EI_z, as the root of their product: what a section sets against a force across
+// it, which bends it about its weakest axis only as far as it is twisted, and twists it only as far as it is bent.
+double across_stiffness_Nmm2(const scene::Span& span);
+
 // What the difference of the loads of two rods with the same cuts would do alone: the square of its load length, and
 // the turn by its moments, tendons and rest curvature in rad.
 double size_of_change(std::span<const scene::Span> from, std::span<const scene::Span> to);

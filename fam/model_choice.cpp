@@ -94,11 +94,15 @@ RodChoice choose_rod(std::span<const Span> spans, RodModel wanted, double tolera
   return {RodModel::reissner, 0, may_matter};
 }
 
-void set_first_arcs(std::span<const Span> spans, bool planar, std::vector<int>& arcs, double factor) {
+namespace {
+
+template <class Stiffness>
+void set_arcs(std::span<const Span> spans, bool planar, std::vector<int>& arcs, double factor,
+              Stiffness&& stiffness_Nmm2) {
   arcs.assign(spans.size(), 1);
   walk_from_tip(spans, OneEach{}, [&](const LoadedCell& cell) {
     const Span& span = cell.span;
-    const double load_length = cell.load_length(least_stiffness_Nmm2(span), !planar);
+    const double load_length = cell.load_length(stiffness_Nmm2(span), !planar);
     const double moment_Nmm = cell.moment_Nmm + straight_tendons(span).moment_Nmm.norm();
     const double turn_rad =
         cell.length_mm * (span.rest_curvature_per_mm.norm() + moment_Nmm / span.stiffness.bending_Nmm2.minCoeff());
@@ -109,6 +113,16 @@ void set_first_arcs(std::span<const Span> spans, bool planar, std::vector<int>& 
     const double most = factor * most_first_arcs;
     arcs[cell.span_index] = std::max(1, static_cast<int>(wanted < most ? wanted : most));
   });
+}
+
+}  // namespace
+
+void set_first_arcs(std::span<const Span> spans, bool planar, std::vector<int>& arcs, double factor) {
+  set_arcs(spans, planar, arcs, factor, least_stiffness_Nmm2);
+}
+
+void set_first_arcs_hardly_bent(std::span<const Span> spans, std::vector<int>& arcs) {
+  set_arcs(spans, false, arcs, 1, across_stiffness_Nmm2);
 }
 
 double arcs_factor(Law law, double tolerance_over_L) {

@@ -32,6 +32,8 @@ constexpr double first_load_length = 1.5;
 constexpr double first_turn_rad = 2;
 constexpr int most_first_arcs = 1000;  // of a span
 void set_first_arcs(std::span<const scene::Span> spans, bool planar, std::vector<int>& arcs, double factor = 1);
+// The same in space for a rod that is hardly bent: all forces act across it (across_stiffness_Nmm2).
+void set_first_arcs_hardly_bent(std::span<const scene::Span> spans, std::vector<int>& arcs);
 
 // The factor for an error within the tolerance, before anything is solved: the error with the first arcs is taken as
 // first_arcs_error of the length, and to fall with the law's order. Measured on 270 random scenes: with 0.01 nine in

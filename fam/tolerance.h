@@ -27,6 +27,8 @@ struct Run {
   // With `factor` times the arcs of each span, from the solution with fewer arcs, or else from no load.
   void solve(const Problem& problem, std::span<const int> arcs_per_span, int factor = 1,
              const Run* fewer_arcs = nullptr);
+  // From no load, where no load has to grow for it (Engine::run_at_once).
+  bool solve_at_once(const Problem& problem, std::span<const int> arcs_per_span);
   bool converged() const { return status == scene::Status::converged; }
   int arc_count() const { return engine.arc_count(); }
   ArcExtent extent(const Problem& problem) const { return extent_of_arcs(engine, problem.spans(), arcs); }

@@ -170,6 +170,18 @@ TEST(SurvivorsFam, HardlyBentIsSolvedAtOnce) {
   EXPECT_GT((tip(by_fam(support::stiffer(strip), 1e-6)) - tip(by_exact(strip))).norm(), 1e-4);
 }
 
+// Nor does such a strip, of 3000 times the stiffness in its plane, need the arcs that its weak axis would: 1 and 2 do
+// in the place of 7 and 14.
+TEST(SurvivorsFam, HardlyBentTakesFewArcs) {
+  const Scene strip =
+      uniform_rod(1, {1800, {1, 3000}, {}, {}, 0}, {DistributedForce{0, 1, Frame::fixed, {0, 90, 3e-4}}});
+  const Equilibrium answer = by_fam(strip, 1e-4);
+  EXPECT_LE(fact<int>(answer, "arcs"), 2);
+  EXPECT_EQ(answer.stable, true);
+  EXPECT_LT((tip(answer) - tip(by_exact(strip))).norm(), 1e-4);
+  EXPECT_GT((tip(by_fam(support::stiffer(strip), 1e-5)) - tip(by_exact(strip))).norm(), 1e-4);
+}
+
 // Equilibria without a conjugate point, as few arcs see it, beside the rest shape or not far from it, to which the full
 // load leads at once, but not those of the branch: under a couple whose tip lies along the clamp, not so what is
 // between; under a load so large that a turn of 0.4 rad makes a strip taut which buckles on the way; where three arcs
