@@ -1,20 +1,21 @@
 // How the load of a boundary value problem grows from zero, and which steps keep to the branch.
 //
-// Where the loads are too small for a second equilibrium (Shooting::one_equilibrium), all but follow, or there is none
-// because the moments are known beforehand, the full load is solved for at once. So it is where that ends beside the rest shape,
-// without a critical point on the way (ends_beside_rest). Elsewhere it grows from zero in steps; a step is taken only
-// if Newton converges as it does near a solution (Contraction), and no segment end turns by more than largest_turn_rad
-// in it nor lies farther than largest_surprise_rad, or than a share of the turn, from where the last steps, or the
-// tangent at the start, pointed (the limits are wider where no critical point is near), nor in the plane from where the
-// tangents at both its ends lead. Beside a buckling or turning point the branches lie too close to be told apart by
-// their distance, but the sign of the equations' determinant differs from one to the next: a step that changes it is
-// shortened as well, or one that leads on to where it vanishes (scene/branch_watch.h). Where the loads have an energy
-// one that ends unstable is shortened as well, but passes below smallest_bifurcation_step if its symmetry can hold the
-// rod there: in the plane, whose determinant is that of motions in it alone, and on the axis (a column loaded exactly
-// on its axis stays straight), where none is watched. Whether it does is asked beside a critical point, and in space
-// where Newton's derivatives met conjugate points: two that are passed at once leave the determinant its sign. Of 30 000
-// strips two passed them so, and ended unstable. So the answer is the equilibrium that the rod reaches when its
-// loads grow together from zero; a snap-through ends in load_step_too_small (fam/limit.h tells more).
+// Where the loads are too small for a second equilibrium or all but follow (Shooting::one_equilibrium), or there is
+// none because the moments are known beforehand, the full load is solved for at once. So it is where that ends beside
+// the rest shape, without a critical point on the way (ends_beside_rest). Elsewhere it grows from zero in steps; a step
+// is taken only if Newton converges as it does near a solution (Contraction), and no segment end turns by more than
+// largest_turn_rad in it nor lies farther than largest_surprise_rad, or than a share of the turn, from where the last
+// steps, or the tangent at the start, pointed (the limits are wider where no critical point is near), nor in the plane
+// from where the tangents at both its ends lead. Beside a buckling or turning point the branches lie too close to be
+// told apart by their distance, but the sign of the equations' determinant differs from one to the next: a step that
+// changes it is shortened as well, or one that leads on to where it vanishes (scene/branch_watch.h). Where the loads
+// have an energy one that ends unstable is shortened as well, but passes below smallest_bifurcation_step if its
+// symmetry can hold the rod there: in the plane, whose determinant is that of motions in it alone, and on the axis (a
+// column loaded exactly on its axis stays straight), where none is watched. Whether it does is asked beside a critical
+// point, and in space where Newton's derivatives met conjugate points: two that are passed at once leave the
+// determinant its sign. Of 30 000 strips two passed them so, and ended unstable. So the answer is the equilibrium that
+// the rod reaches when its loads grow together from zero; a snap-through ends in load_step_too_small (fam/limit.h tells
+// more).
 #pragma once
 
 #include "fam/shooting.h"

@@ -127,12 +127,13 @@ struct OneEach {
 
 // Loads that follow leave one equilibrium, as a march from the tip shows, and so do others beside them that are small.
 // Of two marches from tips that differ by a turn of size 1 the rigid turn is what following loads make of it; by how
-// much the clamps' turns differ from it, at most. Let phi be the turn of a section (base axes), Gamma and Delta what the
-// section's force F and moment M change by beyond turning with it. Towards the clamp
+// much the clamps' turns differ from it, at most. Let phi be the turn of a section (base axes), Gamma and Delta what
+// the section's force F and moment M change by beyond turning with it. Towards the clamp
 //   |phi|' <= |Delta| / EI,  |Gamma|' <= |F| |phi|' + |f| |phi|,  |Delta|' <= |Gamma| + |M| (c3 - c1) / 2 |Delta|,
 // f the fixed distributed force, 1/EI the largest compliance c3, the last term in space alone; a fixed point load adds
-// its force times |phi| to Gamma, its moment (or arm times force) to Delta. Below 1 no two tips' turns meet one clamp.
-// Rest curvature and straight tendons do not enter. Shear and stretch are left out.
+// its force times |phi| to Gamma, its moment (or arm times force) to Delta. Below 1 the clamp's turn is locally
+// invertible in the tip's, everywhere, and so one tip alone meets the clamp (docs/theory.md). Rest curvature and
+// straight tendons do not enter. Shear and stretch are left out.
 double clamp_straying(std::span<const scene::Span> spans, bool planar);
 
 // Whether each span has one strain all along it, known before the shape is: no force acts but those of tendons, which

@@ -65,7 +65,7 @@ struct LoadBounds {
   double load_length = 0;            // of the whole rod
   double unique_share = 0;           // of what leaves it one equilibrium (load_length.h), of a planar rod in its plane
   double unique_share_in_space = 0;  // the same in space
-  double minimum_share = std::numeric_limits<double>::infinity();  // of what leaves it but minima of an energy
+  double minimum_share = std::numeric_limits<double>::infinity();   // of what leaves it but minima of an energy
   double clamp_straying = std::numeric_limits<double>::infinity();  // of loads without an energy (load_length.h)
   double turn_rad = 0;           // by moments, and in space by rest curvature and tendons
   double turn_in_space_rad = 0;  // by all of these
@@ -134,8 +134,9 @@ class Shooting {
 
   const LoadedRod<D>& rod() const { return rod_; }
   const LoadBounds& bounds() const { return bounds_; }
-  // The loads are too small for a second equilibrium, of a planar rod in its plane.
+  // The loads are too small for a second equilibrium, of a planar rod in its plane, or all but follow.
   bool one_equilibrium() const;
+  // The clamp turns with the tip but for less than all of it, and one segment is enough.
   bool loads_all_but_follow() const { return bounds_.clamp_straying < 1; }
   // Then the one found is stable, in space.
   bool is_surely_stable() const {

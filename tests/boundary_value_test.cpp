@@ -191,8 +191,7 @@ scene::Scene random_scene(std::mt19937& generator) {
   for (int i = 0; i < sections; ++i) {
     scene::Section section;
     section.length_mm = 10 + 30 * uniform(generator);
-    scene::Stiffness stiffness = slender(500 + 1000 * uniform(generator), 300 + 700 * uniform(generator));
-    stiffness.bending_Nmm2[1] *= 0.5 + uniform(generator);
+    scene::Stiffness stiffness = support::random_stiffness(generator);
     if (uniform(generator) < 0.5) stiffness.axial_N = 200 + 300 * uniform(generator);
     if (uniform(generator) < 0.5) stiffness.shear_N = Eigen::Vector2d(80, 120);
     stiffness.mass_per_length_kg_per_m = uniform(generator);

@@ -31,9 +31,7 @@ scene::Scene random_rod(std::mt19937& generator, double fixed_share, bool planar
   for (int i = 0; i < sections; ++i) {
     scene::Section section;
     section.length_mm = 10 + 30 * uniform(generator);
-    scene::Stiffness stiffness = slender(500 + 1000 * uniform(generator), 300 + 700 * uniform(generator));
-    stiffness.bending_Nmm2[1] *= 0.5 + uniform(generator);
-    section.cross_section = stiffness;
+    section.cross_section = support::random_stiffness(generator);
     if (uniform(generator) < 0.3) section.rest_curvature_per_mm = in_plane(0.01, true);
     scene.sections.push_back(section);
   }

@@ -73,6 +73,13 @@ scene::Stiffness slender(double bending_Nmm2, double torsion_Nmm2) {
   return stiffness;
 }
 
+scene::Stiffness random_stiffness(std::mt19937& generator) {
+  std::uniform_real_distribution<double> uniform(0, 1);
+  scene::Stiffness stiffness = slender(500 + 1000 * uniform(generator), 300 + 700 * uniform(generator));
+  stiffness.bending_Nmm2[1] *= 0.5 + uniform(generator);
+  return stiffness;
+}
+
 scene::Scene stiffer(scene::Scene scene, double factor) {
   for (scene::Section& section : scene.sections) {
     scene::Stiffness stiffness = stiffness_of(section);

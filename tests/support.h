@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ scene::Scene study1_scene(const std::string& load_case, const std::string& frame
 scene::Scene uniform_rod(double length_mm, const scene::Stiffness& stiffness, std::vector<scene::Load> loads);
 // EI in both directions, GJ; neither stretches nor shears.
 scene::Stiffness slender(double bending_Nmm2, double torsion_Nmm2);
+
+// That of EI 500 .. 1500 about one axis, 0.5 .. 1.5 times as much about the other, GJ 300 .. 1000 N mm^2.
+scene::Stiffness random_stiffness(std::mt19937& generator);
 
 // The same scene with every stiffness multiplied: the twin that must fail a gate.
 scene::Scene stiffer(scene::Scene scene, double factor = 1.05);
