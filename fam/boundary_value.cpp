@@ -28,10 +28,10 @@ bool BasicBoundaryValue<D>::loads_overflow() {
 }
 
 template <int D>
-scene::Status BasicBoundaryValue<D>::run() {
+scene::Status BasicBoundaryValue<D>::run(double swing_limit_rad) {
   if (loads_overflow()) return scene::Status::not_finite;
   shooting_.forget_work();
-  const scene::Status status = growth_.run(shooting_);
+  const scene::Status status = growth_.run(shooting_, swing_limit_rad);
   return status == scene::Status::converged ? place_arcs() : status;
 }
 
@@ -50,6 +50,14 @@ scene::Status BasicBoundaryValue<D>::run_from(const BasicBoundaryValue& fewer_ar
   if (solved) return place_arcs();
   why_ = "Newton did not converge from the solution with fewer arcs";
   return scene::Status::not_converged;
+}
+
+template <int D>
+scene::Status BasicBoundaryValue<D>::go_on_from(const BasicBoundaryValue& fewer_arcs) {
+  why_ = nullptr;
+  if (!shooting_.solve_from(fewer_arcs.shooting_)) return run();
+  const scene::Status status = growth_.go_on(shooting_, fewer_arcs.growth_);
+  return status == scene::Status::converged ? place_arcs() : status;
 }
 
 // Arcs, poses and wrenches from the nodes.

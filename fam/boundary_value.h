@@ -22,8 +22,13 @@ class BasicBoundaryValue {
            double newton_tolerance = tightest_newton_tolerance, const BasicBoundaryValue* fewer = nullptr);
 
   // From no load, which the way must start with, to the full load. converged, load_step_too_small, work_limit,
-  // tendon_collapsed, not_converged or not_finite; message() says why.
-  scene::Status run();
+  // tendon_collapsed, not_converged or not_finite; message() says why. Beside or beyond a critical point it pauses,
+  // not_converged, before an arc swings by more than swing_limit_rad.
+  scene::Status run(double swing_limit_rad = std::numeric_limits<double>::infinity());
+  bool is_paused() const { return growth_.is_paused(); }
+  // The same on from where the one with fewer arcs, that this was set by, paused; from no load, without a limit, where
+  // its nodes do not lead to those of these arcs.
+  scene::Status go_on_from(const BasicBoundaryValue& fewer_arcs);
   // The same without growing any load, if it is known to lead there; else not_converged.
   scene::Status run_at_once();
   // Along the way from the shape that the rod had (Shooting::start_at), if known as another one's solution, and to

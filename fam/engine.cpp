@@ -83,8 +83,16 @@ void Engine::set(const Problem& problem, std::span<const int> arcs_per_span, con
   else set_to(boundary_value_, fewer_arcs ? &fewer_arcs->boundary_value_ : nullptr);
 }
 
-Status Engine::run() {
-  return visit_to_change([](auto& solver) { return solver.run(); });
+Status Engine::run(double swing_limit_rad) {
+  if (is_march_) return is_planar_ ? planar_march_.run() : march_.run();
+  return is_planar_ ? planar_boundary_value_.run(swing_limit_rad) : boundary_value_.run(swing_limit_rad);
+}
+bool Engine::is_paused() const {
+  return visit([](const auto& s) { return of_boundary_value(s, [](const auto& p) { return p.is_paused(); }); });
+}
+Status Engine::go_on_from(const Engine& fewer_arcs) {
+  return is_planar_ ? planar_boundary_value_.go_on_from(fewer_arcs.planar_boundary_value_)
+                    : boundary_value_.go_on_from(fewer_arcs.boundary_value_);
 }
 
 Status Engine::run_at_once() {

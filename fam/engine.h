@@ -18,7 +18,10 @@ class Engine {
   // long as the engine is asked anything. fewer_arcs: one of the same problem, for run_from().
   void set(const Problem& problem, std::span<const int> arcs_per_span, const Engine* fewer_arcs = nullptr);
 
-  scene::Status run();
+  // swing_limit_rad: where a boundary value problem pauses (BasicBoundaryValue::run).
+  scene::Status run(double swing_limit_rad = std::numeric_limits<double>::infinity());
+  bool is_paused() const;
+  scene::Status go_on_from(const Engine& fewer_arcs);
   // A march, or a boundary value problem whose loads need not be grown; else not_converged.
   scene::Status run_at_once();
   // From the solution with fewer arcs that this was set by; a march starts anew.
@@ -57,12 +60,6 @@ class Engine {
   std::string failure_message(scene::Status status) const;
 
  private:
-  template <class Visit>
-  decltype(auto) visit_to_change(Visit&& visit) {
-    if (is_march_) return is_planar_ ? visit(planar_march_) : visit(march_);
-    return is_planar_ ? visit(planar_boundary_value_) : visit(boundary_value_);
-  }
-
   bool is_march_ = true, is_planar_ = false;
   Matrix3d rotation_BP_ = Matrix3d::Identity();
   BasicMarch<3> march_;

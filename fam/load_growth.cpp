@@ -66,8 +66,8 @@ template <int D>
 void LoadGrowth<D>::set(const Shooting<D>& shooting) {
   for (Nodes* nodes : {&start_, &guess_, &previous_, &earlier_}) nodes->resize(shooting.nodes().size());
   for (Tangent* tangent : {&tangent_, &next_tangent_}) tangent->resize(shooting.nodes().size());
-  watches_stability_ = scene::is_conservative(shooting.rod().way().bounds);
-  if (!watches_stability_) return;
+  way_.watches_stability = scene::is_conservative(shooting.rod().way().bounds);
+  if (!way_.watches_stability) return;
   judge_.reserve({shooting.nodes().size(), shooting.rod().way().to.size(), most_tendons(shooting.rod().way().to)});
   judge_.set(shooting.rod());
 }
@@ -84,12 +84,12 @@ void LoadGrowth<D>::reserve(const Room& room) {
 // point the line through two loads.
 template <int D>
 typename LoadGrowth<D>::Shares LoadGrowth<D>::predicted_shares(double factor) const {
-  const double ahead = factor - load_factor_;
-  const double last = load_factor_ - previous_factor_, two = load_factor_ - earlier_factor_;
-  if (load_steps_ == 0) return {0, 0, ahead};
-  if (near_critical_) return {ahead / last, 0, 0};
+  const double ahead = factor - way_.load_factor;
+  const double last = way_.load_factor - way_.previous_factor, two = way_.load_factor - way_.earlier_factor;
+  if (way_.load_steps == 0) return {0, 0, ahead};
+  if (way_.near_critical) return {ahead / last, 0, 0};
   if (D == 2) return {-(ahead / last) * (ahead / last), 0, ahead * (1 + ahead / last)};
-  if (load_steps_ == 1) return {(factor / last) * (factor / last) - 1, 0, -factor * ahead / last};
+  if (way_.load_steps == 1) return {(factor / last) * (factor / last) - 1, 0, -factor * ahead / last};
   return {ahead * (ahead + two) / (last * (two - last)), -ahead * (ahead + last) / (two * (two - last)), 0};
 }
 
@@ -134,10 +134,10 @@ std::optional<typename LoadGrowth<D>::StepSize> LoadGrowth<D>::try_step(Shooting
   shooting.set_nodes(guess_);
   shooting.set_load(to);
   const double tolerance = shooting.newton_tolerance();
-  const double hopeful_rad = near_critical_ ? largest_surprise_rad : largest_smooth_surprise_rad;
+  const double hopeful_rad = way_.near_critical ? largest_surprise_rad : largest_smooth_surprise_rad;
   conjugate_points_ = 0;
-  const OnTheWay way{start_determinant_, hopeless_turns * hopeful_rad, near_critical_,
-                     watches_stability_ ? &conjugate_points_ : nullptr};
+  const OnTheWay way{way_.start, hopeless_turns * hopeful_rad, way_.near_critical,
+                     way_.watches_stability ? &conjugate_points_ : nullptr};
   bool accepted = shooting.newton(to < 1 ? std::max(tolerance, load_step_tolerance) : tolerance, &way);
   auto [turn, surprise] = StepSize{};
   for (std::size_t k = 0; accepted && k < start_.size(); ++k) {
@@ -145,25 +145,27 @@ std::optional<typename LoadGrowth<D>::StepSize> LoadGrowth<D>::try_step(Shooting
     surprise = std::max(surprise, turn_from(guess_[k], shooting.nodes()[k]).norm());
   }
   const bool smooth = !nears_critical(shooting.determinant());
-  const double step = to - load_factor_, turn_rad = turn;
+  const double step = to - way_.load_factor, turn_rad = turn;
   const bool led = surprise <= std::max(most_unled_share * turn, least_unled_rad);
   turn /= smooth ? largest_smooth_turn_rad : largest_turn_rad;
   surprise /= smooth ? largest_smooth_surprise_rad : largest_surprise_rad;
   accepted = accepted && led && turn <= 1 && surprise <= 1;
   // Beside a critical point the tangent changes too much for a mean.
   if (D == 2) accepted = accepted && (follows_tangents(shooting, step, turn_rad) || !smooth);
+  is_paused_ = accepted && !(smooth && way_.was_smooth) && swings_too_far(shooting, turn_rad);
+  accepted = accepted && !is_paused_;
   if (accepted && stays_on_branch(shooting, step)) {
     std::swap(earlier_, previous_);
-    earlier_factor_ = previous_factor_;
+    way_.earlier_factor = way_.previous_factor;
     previous_ = start_;
-    previous_factor_ = load_factor_;
-    load_factor_ = to;
+    way_.previous_factor = way_.load_factor;
+    way_.load_factor = to;
     if (D == 2) std::swap(tangent_, next_tangent_);
-    ++load_steps_;
+    ++way_.load_steps;
     return StepSize{turn, surprise};
   }
   shooting.set_nodes(start_);
-  shooting.set_load(load_factor_);
+  shooting.set_load(way_.load_factor);
   return std::nullopt;
 }
 
@@ -173,19 +175,19 @@ bool LoadGrowth<D>::stays_on_branch(Shooting<D>& shooting, double step) {
   scene::Determinant now = shooting.determinant();
   // The derivatives that Newton left do as long as the determinant does not fall. Beside a critical point those of the
   // way there would let it rise and fall by turns: 1.4 times the work over 20 scenes that buckle.
-  const scene::Determinant& last = branch_.last();
+  const scene::Determinant& last = way_.branch.last();
   const double size = (now.negative == last.negative ? 1 : -1) * std::exp(now.log_size - last.log_size);
-  if (near_critical_ || !(size > 0.8)) now = shooting.exact_determinant();
-  if (watches_determinant_ && branch_.has_left(now)) return false;
+  if (way_.near_critical || !(size > 0.8)) now = shooting.exact_determinant();
+  if (way_.watches_determinant && way_.branch.has_left(now)) return false;
   // Between determinants that have not fallen there is no conjugate point to be passed; in the plane it would be one of
   // motions out of it, which the determinant does not know.
-  const bool near = D == 2 || !watches_determinant_ || nears_critical(now) || conjugate_points_ > 0;
-  const bool falls = watches_stability_ && near && is_unstable(shooting);
-  if (falls && !(may_fall_ && step <= smallest_bifurcation_step)) return false;
-  watches_stability_ = watches_stability_ && !falls;
-  branch_.keep(shooting.rod().load_factor(), now);
-  near_critical_ = scene::has_fallen(start_determinant_, now);
-  was_smooth_ = was_smooth_ && !near_critical_;
+  const bool near = D == 2 || !way_.watches_determinant || nears_critical(now) || conjugate_points_ > 0;
+  const bool falls = way_.watches_stability && near && is_unstable(shooting);
+  if (falls && !(way_.may_fall && step <= smallest_bifurcation_step)) return false;
+  way_.watches_stability = way_.watches_stability && !falls;
+  way_.branch.keep(shooting.rod().load_factor(), now);
+  way_.near_critical = scene::has_fallen(way_.start, now);
+  way_.was_smooth = way_.was_smooth && !way_.near_critical;
   return true;
 }
 
@@ -195,7 +197,7 @@ bool LoadGrowth<D>::gives_up(const Shooting<D>& shooting, double step) {
   const long long arcs = shooting.rod().arc_count();
   const bool exhausted = shooting.newton_steps() > most_newton_steps ||
                          shooting.newton_steps() * arcs > std::max(most_arcs_marched, most_passes * arcs);
-  const double smallest = smallest_load_step * std::max(load_factor_, first_step_);
+  const double smallest = smallest_load_step * std::max(way_.load_factor, way_.first_step);
   if (!exhausted && step >= smallest) return false;
   end_.status = shooting.rod().tendon_collapsed() ? scene::Status::tendon_collapsed
                 : exhausted                       ? scene::Status::work_limit
@@ -213,7 +215,7 @@ std::string LoadGrowth<D>::message() const {
   std::ostringstream text;
   if (end_.newton_steps > 0) text << "work limit: " << end_.newton_steps << " Newton steps and only ";
   else text << "the load step fell below " << end_.smallest_step << " at ";
-  text << 100 * load_factor_ << " % of the load" << (end_.newton_steps > 0 ? " reached" : "");
+  text << 100 * way_.load_factor << " % of the load" << (end_.newton_steps > 0 ? " reached" : "");
   return text.str();
 }
 
@@ -221,28 +223,31 @@ template <int D>
 void LoadGrowth<D>::start_watch(const Shooting<D>& shooting, bool at_rest) {
   const LoadWay& way = shooting.rod().way();
   const scene::Symmetry symmetry = scene::common_symmetry(scene::symmetry_of(way.from), scene::symmetry_of(way.to));
-  watches_determinant_ = symmetry != scene::Symmetry::axis;
-  watches_stability_ = scene::is_conservative(way.bounds) && (at_rest || !is_unstable(shooting));
-  may_fall_ = symmetry != scene::Symmetry::none;
-  branch_ = {};
-  branch_.keep(0, shooting.determinant());
-  start_determinant_ = branch_.last();
-  near_critical_ = false;
+  way_.watches_determinant = symmetry != scene::Symmetry::axis;
+  way_.watches_stability = scene::is_conservative(way.bounds) && (at_rest || !is_unstable(shooting));
+  way_.may_fall = symmetry != scene::Symmetry::none;
+  way_.branch = {};
+  way_.branch.keep(0, shooting.determinant());
+  way_.start = way_.branch.last();
+  way_.near_critical = false;
 }
 
 template <int D>
 void LoadGrowth<D>::forget_way() {
   end_ = {};
-  load_steps_ = 1;
-  was_smooth_ = true;
-  watches_determinant_ = false;
+  is_paused_ = false;
+  way_.swing_limit_rad = std::numeric_limits<double>::infinity();
+  way_.load_steps = 1;
+  way_.was_smooth = true;
+  way_.watches_determinant = false;
 }
 
 template <int D>
-scene::Status LoadGrowth<D>::run(Shooting<D>& shooting) {
+scene::Status LoadGrowth<D>::run(Shooting<D>& shooting, double swing_limit_rad) {
   if (run_at_once(shooting)) return scene::Status::converged;
   if (shooting.moments_are_known()) return end_.status;
-  load_steps_ = 0;
+  way_.swing_limit_rad = way_.swing_rad = swing_limit_rad;
+  way_.load_steps = 0;
   shooting.start_unloaded();
   const LoadBounds& bounds = shooting.bounds();
   return grow(shooting, bounds.load_length * bounds.load_length + bounds.turn_rad, true);
@@ -255,14 +260,14 @@ bool LoadGrowth<D>::run_at_once(Shooting<D>& shooting) {
   // On its axis a rod is straight under all loads, and what is left to tell is whether it stays there.
   const bool is_known =
       shooting.one_equilibrium() || scene::symmetry_of(shooting.rod().way().to) == scene::Symmetry::axis;
-  return (is_known && shooting.solve_at_once()) || (watches_stability_ && ends_beside_rest(shooting));
+  return (is_known && shooting.solve_at_once()) || (way_.watches_stability && ends_beside_rest(shooting));
 }
 
 // There is no other equilibrium, so that none has to be grown to. Arcs as short as the law takes lead so near that
 // Newton converges.
 template <int D>
 scene::Status LoadGrowth<D>::solve_known_moments(Shooting<D>& shooting) {
-  load_factor_ = 1;
+  way_.load_factor = 1;
   const bool solved = shooting.solve_known_moments();
   return end_.status = solved ? scene::Status::converged : scene::Status::arc_not_converged;
 }
@@ -283,9 +288,9 @@ bool LoadGrowth<D>::ends_beside_rest(Shooting<D>& shooting) {
   // Newton's derivatives are those of a shape a step away: too near for what is far from zero to change its sign.
   const bool smooth = !scene::has_fallen(way.start, shooting.determinant());
   if (!(smooth && conjugate_points == 0) && is_unstable(shooting)) return false;
-  was_smooth_ = smooth;
-  start_determinant_ = way.start;
-  watches_determinant_ = true;
+  way_.was_smooth = smooth;
+  way_.start = way.start;
+  way_.watches_determinant = true;
   return true;
 }
 
@@ -299,11 +304,11 @@ scene::Status LoadGrowth<D>::run_on(Shooting<D>& shooting, const Shooting<D>* la
   if (shooting.one_equilibrium() && shooting.solve_near(last, tip_turn_B)) return scene::Status::converged;
   shooting.set_nodes(start_);
   shooting.set_load(0);
-  load_steps_ = 0;
+  way_.load_steps = 0;
   const LoadWay& way = shooting.rod().way();
   end_.status = grow(shooting, size_of_change(way.from, way.to), false);
-  const bool fold = end_.status == scene::Status::load_step_too_small && watches_determinant_ &&
-                    scene::log_fall(start_determinant_, branch_.last()) > -std::log(limit_point_determinant);
+  const bool fold = end_.status == scene::Status::load_step_too_small && way_.watches_determinant &&
+                    scene::log_fall(way_.start, way_.branch.last()) > -std::log(limit_point_determinant);
   return end_.status = fold ? scene::Status::limit_point : end_.status;
 }
 
@@ -312,33 +317,64 @@ scene::Status LoadGrowth<D>::run_on(Shooting<D>& shooting, const Shooting<D>* la
 template <int D>
 double LoadGrowth<D>::growth_after(const StepSize& size) const {
   const double by_turn = std::max(0.9 / size.turn, 1.0);
-  if (near_critical_) return std::min(size.surprise < 0.25 ? 2 : 1.2, by_turn);
+  if (way_.near_critical) return std::min(size.surprise < 0.25 ? 2 : 1.2, by_turn);
   return std::min(std::clamp(0.8 / std::cbrt(size.surprise), 1.2, 3.0), by_turn);
 }
 
 template <int D>
 scene::Status LoadGrowth<D>::grow(Shooting<D>& shooting, double size, bool at_rest) {
-  load_factor_ = previous_factor_ = 0;
+  way_.load_factor = way_.previous_factor = 0;
   if (!shooting.newton(shooting.newton_tolerance())) return end_.status = scene::Status::not_converged;
   start_watch(shooting, at_rest);
   // No farther than to where the determinant can vanish, for all that one load tells; a taut rod slackens first.
-  const scene::Determinant& start = branch_.last();
-  const double nearness = watches_determinant_ ? std::min(1.0, std::exp(start.log_size)) : 1;
+  const scene::Determinant& start = way_.branch.last();
+  const double nearness = way_.watches_determinant ? std::min(1.0, std::exp(start.log_size)) : 1;
   const double size_to_zero = nearness * (1 + start.log_growth * start.log_growth / 4);
-  double step = first_step_ = size_to_zero / std::max(size_to_zero, size);
-  shooting.set_load_tangent(tangent_difference * step, tangent_);
-  while (load_factor_ < 1) {
-    if (watches_determinant_) {
-      step = std::min(step, branch_.longest_step(load_factor_));
-      step = std::min(step, branch_.longest_bent_step(load_factor_));
+  way_.next_step = way_.first_step = size_to_zero / std::max(size_to_zero, size);
+  shooting.set_load_tangent(tangent_difference * way_.first_step, tangent_);
+  return grow_on(shooting);
+}
+
+template <int D>
+scene::Status LoadGrowth<D>::grow_on(Shooting<D>& shooting) {
+  while (way_.load_factor < 1) {
+    double& step = way_.next_step;
+    if (way_.watches_determinant) {
+      step = std::min(step, way_.branch.longest_step(way_.load_factor));
+      step = std::min(step, way_.branch.longest_bent_step(way_.load_factor));
     }
     if (gives_up(shooting, step)) return end_.status;
-    const double from = load_factor_;
+    const double from = way_.load_factor;
     const double to = 1 - from <= 1.001 * step ? 1 : from + step;
     if (const std::optional<StepSize> taken = try_step(shooting, to)) step *= growth_after(*taken);
+    else if (is_paused_) return end_.status = scene::Status::not_converged;
     else step = (to - from) / 2;
   }
   return scene::Status::converged;
+}
+
+// No arc swings farther than it did by more than the nodes turn, as a rule: a march for every step takes up to 7 % of
+// the work.
+template <int D>
+bool LoadGrowth<D>::swings_too_far(Shooting<D>& shooting, double turn_rad) {
+  way_.swing_rad += turn_rad;
+  if (way_.swing_rad <= way_.swing_limit_rad) return false;
+  shooting.march_all();
+  const LoadedRod<D>& rod = shooting.rod();
+  way_.swing_rad = largest_swing_rad<D>(rod.way().to, rod.arcs_per_span(), shooting.marched().arcs);
+  return !(way_.swing_rad <= way_.swing_limit_rad);
+}
+
+template <int D>
+scene::Status LoadGrowth<D>::go_on(Shooting<D>& shooting, const LoadGrowth& fewer_arcs) {
+  previous_ = fewer_arcs.previous_;
+  earlier_ = fewer_arcs.earlier_;
+  tangent_ = fewer_arcs.tangent_;
+  way_ = fewer_arcs.way_;
+  way_.swing_rad = way_.swing_limit_rad / 2;  // twice the arcs
+  end_ = {};
+  is_paused_ = false;
+  return grow_on(shooting);
 }
 
 template class LoadGrowth<2>;

@@ -44,8 +44,12 @@ class LoadGrowth {
   void set(const Shooting<D>& shooting);
 
   // From no load to the full load. converged, load_step_too_small, not_converged, work_limit or tendon_collapsed; where
-  // the moments are known converged or arc_not_converged.
-  scene::Status run(Shooting<D>& shooting);
+  // the moments are known converged or arc_not_converged. Where a critical point is near, or was before, it pauses at
+  // the last load at which no arc swings by more than the limit (load_length.h): not_converged.
+  scene::Status run(Shooting<D>& shooting, double swing_limit_rad);
+  // On from the load at which that of a rod with fewer arcs paused, whose nodes there led to those of this one.
+  scene::Status go_on(Shooting<D>& shooting, const LoadGrowth& fewer_arcs);
+  bool is_paused() const { return is_paused_; }
   // The same without growing any load. False: that is left.
   bool run_at_once(Shooting<D>& shooting);
   // From the shape that the nodes hold at the start of the way, if known as another one's solution, and to where the
@@ -58,20 +62,16 @@ class LoadGrowth {
   Stability judge(const Shooting<D>& shooting) const {
     return judge_(shooting.rod(), shooting.segments(), shooting.nodes());
   }
-  int load_steps() const { return load_steps_; }
+  int load_steps() const { return way_.load_steps; }
   // Whether no critical point was near on the way.
-  bool was_smooth() const { return was_smooth_; }
+  bool was_smooth() const { return way_.was_smooth; }
   // Whether the rod was stable at the start of such a way, on which the determinant of its motions in space was
   // watched: then it is at the end.
-  bool stayed_stable() const { return D == 3 && was_smooth_ && watches_determinant_ && watches_stability_; }
+  bool stayed_stable() const { return D == 3 && way_.was_smooth && way_.watches_determinant && way_.watches_stability; }
   // At the solution with more arcs, whose determinant is this.
   void take_over(const LoadGrowth& fewer_arcs, const scene::Determinant& now) {
-    load_steps_ = fewer_arcs.load_steps_;
-    const bool falls = fewer_arcs.watches_determinant_ && scene::has_fallen(fewer_arcs.start_determinant_, now);
-    was_smooth_ = fewer_arcs.was_smooth_ && !falls;
-    start_determinant_ = fewer_arcs.start_determinant_;
-    watches_determinant_ = fewer_arcs.watches_determinant_;
-    watches_stability_ = fewer_arcs.watches_stability_;
+    way_ = fewer_arcs.way_;
+    if (way_.watches_determinant && scene::has_fallen(way_.start, now)) way_.was_smooth = false;
   }
 
  private:
@@ -86,6 +86,9 @@ class LoadGrowth {
   // size: of the change of the loads; 1 is too little to make a straight rod critical. at_rest: from no load, where a
   // rod is stable.
   scene::Status grow(Shooting<D>& shooting, double size, bool at_rest);
+  scene::Status grow_on(Shooting<D>& shooting);
+  // After a step in which a node turned by so much.
+  bool swings_too_far(Shooting<D>& shooting, double turn_rad);
   void start_watch(const Shooting<D>& shooting, bool at_rest);
   // How many times the nodes change by what they did since the last loads but one and two, and by the tangent.
   struct Shares {
@@ -95,7 +98,7 @@ class LoadGrowth {
   void predict(const Shooting<D>& shooting, const Shares& shares);
   // Before or after a step to where the determinant is this.
   bool nears_critical(const scene::Determinant& now) const {
-    return near_critical_ || scene::has_fallen(start_determinant_, now);
+    return way_.near_critical || scene::has_fallen(way_.start, now);
   }
   // The largest turn in a step and the largest rotation that was not predicted, in units of what is allowed.
   struct StepSize {
@@ -113,17 +116,23 @@ class LoadGrowth {
   Nodes previous_, earlier_;  // at the last loads but one and two
   Tangent tangent_;           // where the way starts, in the plane at the present load
   Tangent next_tangent_;      // in the plane where a step leads
-  double load_factor_ = 0, previous_factor_ = 0, earlier_factor_ = 0, first_step_ = 1;
-  scene::BranchWatch branch_;
-  scene::Determinant start_determinant_;  // where the way starts
-  bool near_critical_ = false;            // now; where it is not, the way is taken for smooth
-  bool was_smooth_ = true;
-  bool watches_determinant_ = false;
-  bool watches_stability_ = false;  // the loads have an energy, and the rod was stable so far
-  bool may_fall_ = false;           // where its symmetry can hold it
-  int conjugate_points_ = 0;        // in space, met where Newton took its last derivatives
+  // What is known of the way so far.
+  struct Way {
+    double load_factor = 0, previous_factor = 0, earlier_factor = 0, first_step = 1, next_step = 1;
+    scene::BranchWatch branch;
+    scene::Determinant start;
+    bool near_critical = false;  // now; where it is not, the way is taken for smooth
+    bool was_smooth = true;
+    bool watches_determinant = false;
+    bool watches_stability = false;  // the loads have an energy, and the rod was stable so far
+    bool may_fall = false;           // where its symmetry can hold it
+    int load_steps = 0;
+    double swing_limit_rad = std::numeric_limits<double>::infinity();
+    double swing_rad = 0;  // of an arc: measured, and the turns of the nodes since then
+  } way_;
+  bool is_paused_ = false;
+  int conjugate_points_ = 0;  // in space, met where Newton took its last derivatives
   mutable StabilityJudge<D> judge_;
-  int load_steps_ = 0;
   struct {
     scene::Status status = scene::Status::converged;
     double smallest_step = 0;  // where steps fell below it

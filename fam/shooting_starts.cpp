@@ -198,7 +198,7 @@ template <int D>
 bool Shooting<D>::solve_from(const Shooting& fewer) {
   nodes_ = fewer.nodes_;
   newton_steps_ = fewer.newton_steps_;
-  set_load(1);
+  set_load(fewer.rod_.load_factor());
   const scene::Determinant determinant = fewer.determinant();
   const OnTheWay way{determinant, leading_turn_rad * std::min(1.0, std::exp(determinant.log_size / 2))};
   slope_ = fewer.slope_;

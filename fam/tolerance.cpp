@@ -232,6 +232,21 @@ bool solve_hardly_bent(const Problem& problem, Run& run, std::vector<int>& first
   return true;
 }
 
+// The first run, its arcs halved on the way where they come to swing too far to lead to a finer answer; in the two by
+// turns. Returns how many times the first arcs it ends with.
+int grow_first(const Problem& problem, std::span<const int> first, Run*& run, Run*& spare) {
+  run->set(problem, first);
+  run->status = run->engine.run(leading_swing_rad);
+  int multiple = 1;
+  while (run->is_paused() && 2 * run->arc_count() <= max_arcs) {
+    multiple *= 2;
+    spare->set(problem, first, multiple, run);
+    spare->status = spare->engine.go_on_from(run->engine);
+    std::swap(run, spare);
+  }
+  return multiple;
+}
+
 }  // namespace
 
 // Runs with growing multiples of the first arcs.
@@ -240,15 +255,15 @@ Found solve_to_tolerance(const Problem& problem, Run& one, Run& another) {
   set_first_arcs(problem.spans(), problem.choice().plane.has_value(), first);
   Ladder ladder(problem);
   Run *coarse = &one, *fine = &another;
-  if (!solve_hardly_bent(problem, *coarse, first)) coarse->solve(problem, first);
-  const int count = sum(first);
+  const bool hardly_bent = solve_hardly_bent(problem, *coarse, first);
+  const int grown = hardly_bent ? 1 : grow_first(problem, first, coarse, fine), count = sum(first);
   if (ladder.suffices(*coarse)) {
     fine->status = Status::not_converged;  // it may hold another problem's answer
     return {coarse, fine, Status::converged, ladder.error_mm()};
   }
   int times_apart = 0;
   bool apart = false, agree = false;
-  for (int multiple = 1, next = 2; static_cast<double>(next) * count <= max_arcs;) {
+  for (int multiple = grown, next = 2 * grown; static_cast<double>(next) * count <= max_arcs;) {
     refine(problem, first, next, *coarse, *fine, !apart && leads(problem, *coarse, agree));
     const double ratio = static_cast<double>(next) / multiple;
     int after = 2 * next;

@@ -30,6 +30,7 @@ struct Run {
   // From no load, where no load has to grow for it (Engine::run_at_once).
   bool solve_at_once(const Problem& problem, std::span<const int> arcs_per_span);
   bool converged() const { return status == scene::Status::converged; }
+  bool is_paused() const { return status == scene::Status::not_converged && engine.is_paused(); }
   int arc_count() const { return engine.arc_count(); }
   ArcExtent extent(const Problem& problem) const { return extent_of_arcs(engine, problem.spans(), arcs); }
 };
@@ -46,9 +47,9 @@ constexpr double unconfirmed = 0.5;
 constexpr double contraction = 0.3;
 // Beside a critical point the arcs' error decides to which side a rod goes. An answer whose load has passed near one
 // with arcs that swing farther does not lead to the next finer one: that one's loads grow from nothing, and so do those
-// of one that lies too far from it (leading_turn_rad). Where two such answers lie within confirming_share of the length
-// the finer one leads. Of 40 000 rods that buckle one was led to the other side where any answer led; chosen so, not
-// measured more closely.
+// of one that lies too far from it (leading_turn_rad). So the arcs of the first run are halved on the way, before they
+// swing so far. Where two such answers lie within confirming_share of the length the finer one leads. Of 40 000 rods
+// that buckle one was led to the other side where any answer led; chosen so, not measured more closely.
 constexpr double leading_swing_rad = 1.25;
 constexpr double confirming_share = 0.02;
 // Two runs of a rod whose loads have an energy that tell its stability apart, by an unstable direction or by the

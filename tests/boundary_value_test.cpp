@@ -2,6 +2,8 @@
 #include "allocation_counter.h"
 #include "exact_reference/solve.h"
 #include "fam/boundary_value.h"
+#include "fam/load_length.h"
+#include "fam/tolerance.h"
 #include "scene/scene_file.h"
 #include "scene/span_facts.h"
 #include "support.h"
@@ -295,6 +297,65 @@ TEST(BoundaryValue, NewtonStepsAreThoseOfOneRun) {
     EXPECT_EQ(solver.run(), scene::Status::converged);
     EXPECT_EQ(solver.newton_steps(), once);
   }
+}
+
+constexpr double swing_rad = fam::leading_swing_rad;
+
+using Planar = fam::BasicBoundaryValue<2>;
+
+void set(Planar& solver, const fam::LoadWay& way, int arcs, const Planar* fewer = nullptr) {
+  solver.set(way, std::vector{arcs}, Law::sixth_order, fam::RodModel::kirchhoff, 1e-13, fewer);
+}
+
+// From no load with two arcs, and twice as many where it pauses.
+Planar halved_on_the_way(const fam::LoadWay& way, double swing_limit_rad) {
+  Planar run, finer;
+  set(run, way, 2);
+  scene::Status status = run.run(swing_limit_rad);
+  for (; run.is_paused(); std::swap(run, finer)) {
+    EXPECT_EQ(status, scene::Status::not_converged);
+    EXPECT_GT(run.load_factor(), 0.5);
+    EXPECT_LT(run.load_factor(), 1);
+    set(finer, way, 2 * run.arc_count(), &run);
+    status = finer.go_on_from(run);
+  }
+  EXPECT_EQ(status, scene::Status::converged);
+  return run;
+}
+
+double tips_apart_mm(const Planar& a, const Planar& b) {
+  return (a.poses().back().position_B_mm - b.poses().back().position_B_mm).norm();
+}
+
+// Case P4 with fixed loads, which passes near a fold: 63 Newton steps, 58 with four arcs from the start.
+TEST(BoundaryValue, ArcsAreHalvedOnTheWayPastACriticalPoint) {
+  const scene::Scene scene =
+      uniform_rod(40, slender(750, 500),
+                  {scene::Force{40, Frame::fixed, {0, -1.5, 0}}, scene::Moment{40, Frame::fixed, {0, 0, 60}}});
+  const std::vector<scene::Span> spans = scene::spans_of(scene), stiffer_spans = scene::spans_of(support::stiffer(scene));
+  const fam::GrowingLoads loads(spans), stiffer_loads(stiffer_spans);
+  const Planar halved = halved_on_the_way(loads.way(), swing_rad);
+  EXPECT_EQ(halved.arc_count(), 4);
+  EXPECT_FALSE(halved.way_was_smooth());
+  Planar whole, stiffer;
+  set(whole, loads.way(), 4);
+  set(stiffer, stiffer_loads.way(), 4);
+  EXPECT_EQ(whole.run(), scene::Status::converged);
+  EXPECT_EQ(stiffer.run(), scene::Status::converged);
+  EXPECT_LT(tips_apart_mm(halved, whole), 1e-9);
+  EXPECT_GT(tips_apart_mm(halved, stiffer), 1e-2);
+  EXPECT_GT(halved.newton_steps(), whole.newton_steps()) << "that to four arcs counts";
+  EXPECT_LT(halved.newton_steps(), 1.3 * whole.newton_steps());
+  EXPECT_EQ(halved_on_the_way(loads.way(), INFINITY).arc_count(), 2);
+}
+
+TEST(BoundaryValue, ArcsAreKeptOnASmoothWay) {
+  const std::vector<scene::Span> spans = scene::spans_of(tip_force(slender(750, 500), {-0.5, 8, 0}));
+  const fam::GrowingLoads loads(spans);
+  const Planar run = halved_on_the_way(loads.way(), swing_rad);
+  EXPECT_TRUE(run.way_was_smooth());
+  EXPECT_EQ(run.arc_count(), 2);
+  EXPECT_GT(fam::largest_swing_rad<2>(spans, std::vector{2}, run.arcs()), swing_rad);
 }
 
 // The largest distance between the arcs' ends of a scene, solved with this tolerance from half the arcs, and of a judge
