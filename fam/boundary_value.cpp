@@ -55,7 +55,7 @@ scene::Status BasicBoundaryValue<D>::run_from(const BasicBoundaryValue& fewer_ar
 template <int D>
 scene::Status BasicBoundaryValue<D>::go_on_from(const BasicBoundaryValue& fewer_arcs) {
   why_ = nullptr;
-  if (!shooting_.solve_from(fewer_arcs.shooting_)) return run();
+  if (!shooting_.solve_from(fewer_arcs.shooting_)) return scene::Status::not_converged;
   const scene::Status status = growth_.go_on(shooting_, fewer_arcs.growth_);
   return status == scene::Status::converged ? place_arcs() : status;
 }

@@ -26,8 +26,8 @@ class BasicBoundaryValue {
   // not_converged, before an arc swings by more than swing_limit_rad.
   scene::Status run(double swing_limit_rad = std::numeric_limits<double>::infinity());
   bool is_paused() const { return growth_.is_paused(); }
-  // The same on from where the one with fewer arcs, that this was set by, paused; from no load, without a limit, where
-  // its nodes do not lead to those of these arcs.
+  // The same on from where the one with fewer arcs, that this was set by, paused. not_converged, and not paused: its
+  // nodes do not lead to those of these arcs.
   scene::Status go_on_from(const BasicBoundaryValue& fewer_arcs);
   // The same without growing any load, if it is known to lead there; else not_converged.
   scene::Status run_at_once();

@@ -66,6 +66,7 @@ template <int D>
 void LoadGrowth<D>::set(const Shooting<D>& shooting) {
   for (Nodes* nodes : {&start_, &guess_, &previous_, &earlier_}) nodes->resize(shooting.nodes().size());
   for (Tangent* tangent : {&tangent_, &next_tangent_}) tangent->resize(shooting.nodes().size());
+  is_paused_ = false;
   way_.watches_stability = scene::is_conservative(shooting.rod().way().bounds);
   if (!way_.watches_stability) return;
   judge_.reserve({shooting.nodes().size(), shooting.rod().way().to.size(), most_tendons(shooting.rod().way().to)});
@@ -139,17 +140,17 @@ std::optional<typename LoadGrowth<D>::StepSize> LoadGrowth<D>::try_step(Shooting
   const OnTheWay way{way_.start, hopeless_turns * hopeful_rad, way_.near_critical,
                      way_.watches_stability ? &conjugate_points_ : nullptr};
   bool accepted = shooting.newton(to < 1 ? std::max(tolerance, load_step_tolerance) : tolerance, &way);
-  auto [turn, surprise] = StepSize{};
+  double turn = 0, surprise = 0;
   for (std::size_t k = 0; accepted && k < start_.size(); ++k) {
     turn = std::max(turn, turn_from(start_[k], shooting.nodes()[k]).norm());
     surprise = std::max(surprise, turn_from(guess_[k], shooting.nodes()[k]).norm());
   }
   const bool smooth = !nears_critical(shooting.determinant());
   const double step = to - way_.load_factor, turn_rad = turn;
-  const bool led = surprise <= std::max(most_unled_share * turn, least_unled_rad);
+  const double unled = surprise / std::max(most_unled_share * turn, least_unled_rad);
   turn /= smooth ? largest_smooth_turn_rad : largest_turn_rad;
   surprise /= smooth ? largest_smooth_surprise_rad : largest_surprise_rad;
-  accepted = accepted && led && turn <= 1 && surprise <= 1;
+  accepted = accepted && unled <= 1 && turn <= 1 && surprise <= 1;
   // Beside a critical point the tangent changes too much for a mean.
   if (D == 2) accepted = accepted && (follows_tangents(shooting, step, turn_rad) || !smooth);
   is_paused_ = accepted && !(smooth && way_.was_smooth) && swings_too_far(shooting, turn_rad);
@@ -162,7 +163,7 @@ std::optional<typename LoadGrowth<D>::StepSize> LoadGrowth<D>::try_step(Shooting
     way_.load_factor = to;
     if (D == 2) std::swap(tangent_, next_tangent_);
     ++way_.load_steps;
-    return StepSize{turn, surprise};
+    return StepSize{turn, surprise, unled};
   }
   shooting.set_nodes(start_);
   shooting.set_load(way_.load_factor);
@@ -313,11 +314,13 @@ scene::Status LoadGrowth<D>::run_on(Shooting<D>& shooting, const Shooting<D>* la
 }
 
 // The parabola's surprise grows with the third power of the step, that of the line is noise where branches are near;
-// the turn as the step: coils of many turns met its limit, and a longer step was refused every second time.
+// the turn as the step, and so does the line's surprise over it: coils of many turns, and columns beyond their critical
+// load, met these limits, and a longer step was refused every second time.
 template <int D>
 double LoadGrowth<D>::growth_after(const StepSize& size) const {
   const double by_turn = std::max(0.9 / size.turn, 1.0);
-  if (way_.near_critical) return std::min(size.surprise < 0.25 ? 2 : 1.2, by_turn);
+  const double by_unled = std::max(0.8 / size.unled, 1.0);
+  if (way_.near_critical) return std::min({size.surprise < 0.25 ? 2 : 1.2, by_turn, by_unled});
   return std::min(std::clamp(0.8 / std::cbrt(size.surprise), 1.2, 3.0), by_turn);
 }
 

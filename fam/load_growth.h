@@ -100,9 +100,10 @@ class LoadGrowth {
   bool nears_critical(const scene::Determinant& now) const {
     return way_.near_critical || scene::has_fallen(way_.start, now);
   }
-  // The largest turn in a step and the largest rotation that was not predicted, in units of what is allowed.
+  // The largest turn in a step, the largest rotation that was not predicted, and this as a share of the former, in
+  // units of what is allowed.
   struct StepSize {
-    double turn = 0, surprise = 0;
+    double turn = 0, surprise = 0, unled = 0;
   };
   double growth_after(const StepSize& size) const;
   // After a step of this length in which a node turned by so much; sets next_tangent_.

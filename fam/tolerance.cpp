@@ -233,7 +233,8 @@ bool solve_hardly_bent(const Problem& problem, Run& run, std::vector<int>& first
 }
 
 // The first run, its arcs halved on the way where they come to swing too far to lead to a finer answer; in the two by
-// turns. Returns how many times the first arcs it ends with.
+// turns. Where they do not lead on there either its loads grow from nothing. Returns how many times the first arcs it
+// ends with.
 int grow_first(const Problem& problem, std::span<const int> first, Run*& run, Run*& spare) {
   run->set(problem, first);
   run->status = run->engine.run(leading_swing_rad);
@@ -242,6 +243,7 @@ int grow_first(const Problem& problem, std::span<const int> first, Run*& run, Ru
     multiple *= 2;
     spare->set(problem, first, multiple, run);
     spare->status = spare->engine.go_on_from(run->engine);
+    if (spare->status == Status::not_converged && !spare->is_paused()) spare->solve(problem, first, multiple);
     std::swap(run, spare);
   }
   return multiple;
