@@ -332,7 +332,8 @@ TEST(BoundaryValue, ArcsAreHalvedOnTheWayPastACriticalPoint) {
   const scene::Scene scene =
       uniform_rod(40, slender(750, 500),
                   {scene::Force{40, Frame::fixed, {0, -1.5, 0}}, scene::Moment{40, Frame::fixed, {0, 0, 60}}});
-  const std::vector<scene::Span> spans = scene::spans_of(scene), stiffer_spans = scene::spans_of(support::stiffer(scene));
+  const std::vector<scene::Span> spans = scene::spans_of(scene),
+                                 stiffer_spans = scene::spans_of(support::stiffer(scene));
   const fam::GrowingLoads loads(spans), stiffer_loads(stiffer_spans);
   const Planar halved = halved_on_the_way(loads.way(), swing_rad);
   EXPECT_EQ(halved.arc_count(), 4);
@@ -347,6 +348,21 @@ TEST(BoundaryValue, ArcsAreHalvedOnTheWayPastACriticalPoint) {
   EXPECT_GT(halved.newton_steps(), whole.newton_steps()) << "that to four arcs counts";
   EXPECT_LT(halved.newton_steps(), 1.3 * whole.newton_steps());
   EXPECT_EQ(halved_on_the_way(loads.way(), INFINITY).arc_count(), 2);
+}
+
+// A column pressed beyond its critical load under a torque fixed in space, which a following moment bends: 60 Newton
+// steps; 85 where a step may be twice as long as the last whatever its surprise, and is refused every second time.
+TEST(BoundaryValue, FewStepsAreRefusedBeyondACriticalLoad) {
+  const scene::Scene column = uniform_rod(
+      1, slender(1, 0.936),
+      {scene::Force{1, Frame::fixed, {-7.0845, 0, -7.25e-7}}, scene::Moment{1, Frame::fixed, {-0.0747, 0, 0}},
+       scene::Moment{1, Frame::follower, {0, -8.866e-4, 0}}});
+  const std::vector<scene::Span> spans = scene::spans_of(column);
+  const fam::GrowingLoads loads(spans);
+  fam::BoundaryValue solver;
+  solver.set(loads.way(), std::vector{2}, Law::sixth_order, fam::RodModel::kirchhoff, 1e-5);
+  EXPECT_EQ(solver.run(), scene::Status::converged);
+  EXPECT_LE(solver.newton_steps(), 70);
 }
 
 TEST(BoundaryValue, ArcsAreKeptOnASmoothWay) {
