@@ -13,9 +13,10 @@
 // symmetry can hold the rod there: in the plane, whose determinant is that of motions in it alone, and on the axis (a
 // column loaded exactly on its axis stays straight), where none is watched. Whether it does is asked beside a critical
 // point, and in space where Newton's derivatives met conjugate points: two that are passed at once leave the
-// determinant its sign. Of 30 000 strips two passed them so, and ended unstable. So the answer is the equilibrium that
-// the rod reaches when its loads grow together from zero; a snap-through ends in load_step_too_small (fam/limit.h tells
-// more).
+// determinant its sign. Of 30 000 strips two passed them so, and ended unstable. Past a critical point arcs that swing
+// far may lead a rod to another side than it goes to, so that the growth can be paused before they do and go on with
+// more (tolerance.h). So the answer is the equilibrium that the rod reaches when its loads grow together from zero; a
+// snap-through ends in load_step_too_small (fam/limit.h tells more).
 #pragma once
 
 #include "fam/shooting.h"
