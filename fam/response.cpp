@@ -52,6 +52,7 @@ const Response::Sweep& Response::swept(const Source& source) {
     }
     if (sweep.asked < oldest->asked) oldest = &sweep;
   }
+  arc_loads_are_asked_for_ |= source.kind == Kind::distributed || source.kind == Kind::tension;
   oldest->source = source;
   oldest->asked = ++asked_;
   set_jumps(*oldest);

@@ -69,7 +69,8 @@ class Response {
   // the wrench and, with distributed forces, by the fixed force in the distal frame.
   struct Arc {
     Eigen::Matrix<double, 12, 9> slopes;
-    bool has_tensions;  // `tensions` are known: the slopes by the first three tendons'
+    bool has_fixed_along;  // the slopes by the fixed force along itself, which no turn asks for, are among them
+    bool has_tensions;     // `tensions` are known: the slopes by the first three tendons'
     Eigen::Matrix<double, 12, 3> tensions;
     Vector3d force_N, moment_Nmm, proximal_force_N, way_mm;
     Matrix3d turn_by_turn, way_by_turn;  // the distal turn by the proximal one; the way by the distal turn
@@ -109,6 +110,7 @@ class Response {
   void factorise_span(std::size_t span);
   template <int N>
   ArcVariation<N> vary(const ArcForces<double, 3>* forces, const SectionWrench& wrench) const;
+  ArcVariation<9> vary_by_turns(const ArcForces<double, 3>& forces, const SectionWrench& wrench) const;
   SectionWrench linearise(std::size_t span, std::size_t arc);
   void carry(std::size_t span, std::size_t arc, const SectionWrench& gain_B);
 
@@ -147,6 +149,7 @@ class Response {
 
   Solution solution_{};
   bool prepared_ = false;
+  bool arc_loads_are_asked_for_ = false;  // distributed ones and tensions, at this solution or one before
   std::vector<Arc> arcs_;
   std::vector<std::size_t> first_arcs_, section_of_span_;  // one more first arc than spans
   std::array<Sweep, 8> sweeps_;

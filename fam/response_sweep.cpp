@@ -107,6 +107,17 @@ ArcVariation<N> Response::vary(const ArcForces<double, 3>* forces, const Section
                             {rotation_PB * wrench.force_N, rotation_PB * wrench.moment_Nmm});
 }
 
+// The same with distributed forces, of these two changes: those across itself that turns make of a fixed one.
+ArcVariation<9> Response::vary_by_turns(const ArcForces<double, 3>& forces, const SectionWrench& wrench) const {
+  const Eigen::Matrix<double, 3, 2> across = two_across(forces.fixed_D_N);
+  ArcChange<8> change = unit_changes<8>();
+  change.fixed_D_N.rightCols<2>() = across;
+  const ArcVariation<8> by = vary_arc(solution_.law, solution_.model, constants_, &forces, wrench, change);
+  ArcVariation<9> result{by.motion, by.way_D_mm, by.gain_D, {}};
+  result.slopes << by.slopes.leftCols<6>(), by.slopes.rightCols<2>() * across.transpose();
+  return result;
+}
+
 // Slopes and solution of an arc, base frame; the force and moment that its distributed forces add.
 SectionWrench Response::linearise(std::size_t i, std::size_t k) {
   const SectionPose& pose = solution_.poses[k + 1];
@@ -129,6 +140,8 @@ SectionWrench Response::linearise(std::size_t i, std::size_t k) {
     arc.way_mm = R * variation.way_D_mm;
     return {R * variation.gain_D.force_N, R * variation.gain_D.moment_Nmm};
   };
+  arc.has_fixed_along = planar_ || arc_loads_are_asked_for_;
+  if (!arc.has_fixed_along) return take(vary_by_turns(forces, wrench));
   arc.has_tensions = !planar_ && acts_in(first_tensions, i);
   if (!arc.has_tensions) return take(vary<9>(&forces, wrench));
   ArcChange<12> change = unit_changes<12>();
@@ -211,7 +224,7 @@ Eigen::Matrix<double, 12, 3> Response::source_in(const Source& source, std::size
   const Matrix3d& R = solution_.poses[k + 1].rotation_BS;
   ArcChange<3> change;
   add_source(source, i, constants_.length_mm, R, change);
-  if (has_forces(i) && change.constant == Constant::none && change.follower_S_N.isZero(0)) {
+  if (has_forces(i) && arcs_[k].has_fixed_along && change.constant == Constant::none && change.follower_S_N.isZero(0)) {
     return arcs_[k].slopes.rightCols<3>() * (R * change.fixed_D_N);
   }
   const ArcForces<double, 3> forces = forces_on(i, constants_.length_mm, R);

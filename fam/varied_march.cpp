@@ -48,16 +48,6 @@ ArcFields<N> combined(const ArcVariation<M>& by_unit, const Eigen::Matrix<double
   return result;
 }
 
-// Two directions across a vector and each other; none where it vanishes.
-Eigen::Matrix<double, 3, 2> two_across(const Vector3d& v) {
-  int least;
-  v.cwiseAbs().minCoeff(&least);
-  Eigen::Matrix<double, 3, 2> result;
-  const Vector3d first = Vector3d::Unit(least).cross(v).normalized();
-  result << first, v.cross(first).normalized();
-  return result;
-}
-
 // Wrench and fields from the arc's distal end to its proximal one.
 template <int N>
 void carry(const ArcFields<N>& arc, bool distributed, SectionState<3>& state, Fields<3, N>& fields) {
