@@ -38,7 +38,9 @@ class BasicBoundaryValue {
     if (loads_overflow()) return scene::Status::not_finite;
     shooting_.forget_work();
     shooting_.start_at(state_at);
-    const scene::Status status = growth_.run_on(shooting_, last ? &last->shooting_ : nullptr, tip_turn_B);
+    typename LoadGrowth<D>::Last solution;
+    if (last) solution = {&last->shooting_, &last->growth_, last->is_surely_stable()};
+    const scene::Status status = growth_.run_on(shooting_, solution, tip_turn_B);
     return status == scene::Status::converged ? place_arcs() : status;
   }
   // The full load, starting from the solution of the one with fewer arcs that this was set by.

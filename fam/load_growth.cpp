@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
+#include <utility>
 
 namespace fam {
 namespace {
@@ -43,6 +45,8 @@ constexpr double tangent_difference = 1e-3;         // of loads, over the step; 
 // without. All of these are planar; with 1e-6 N across, and so in space, none ends elsewhere. In space 0.1 lets random
 // scene 99989, a coil, end in work_limit. Below the least it is what load_step_tolerance makes of a tangent.
 constexpr double most_missed_share = 0.1, least_missed_rad = load_step_tolerance / tangent_difference;
+// Of the change of the loads that leads to where the determinant can vanish; chosen, not measured.
+constexpr double most_stale_share = 0.1;
 constexpr int most_passes = 100;  // of the rod's arcs, within the work limit; chosen, not measured
 
 // The shape that the last march met, its arcs short enough to show conjugate points.
@@ -52,6 +56,12 @@ bool is_hardly_bent(const Shooting<D>& shooting) {
   const LoadedRod<D>& rod = shooting.rod();
   return largest_swing_in_space_rad(rod.way().to, rod.arcs_per_span(),
                                     std::span<const BasicArc<D>>(shooting.marched().arcs)) <= most_swing_rad;
+}
+
+// The size of the change of the loads that leads to where the determinant can vanish, for all that one load tells; a
+// taut rod slackens first.
+double size_to_zero(const scene::Determinant& start) {
+  return std::min(1.0, std::exp(start.log_size)) * (1 + start.log_growth * start.log_growth / 4);
 }
 
 // R_B,b = R_B,a exp(turn): base axes in the section turn back.
@@ -139,7 +149,8 @@ std::optional<typename LoadGrowth<D>::StepSize> LoadGrowth<D>::try_step(Shooting
   conjugate_points_ = 0;
   const OnTheWay way{way_.start, hopeless_turns * hopeful_rad, way_.near_critical,
                      way_.watches_stability ? &conjugate_points_ : nullptr};
-  bool accepted = shooting.newton(to < 1 ? std::max(tolerance, load_step_tolerance) : tolerance, &way);
+  bool accepted = shooting.newton(to < 1 ? std::max(tolerance, load_step_tolerance) : tolerance, &way,
+                                  std::exchange(way_.keeps_derivatives, false));
   double turn = 0, surprise = 0;
   for (std::size_t k = 0; accepted && k < start_.size(); ++k) {
     turn = std::max(turn, turn_from(start_[k], shooting.nodes()[k]).norm());
@@ -221,11 +232,11 @@ std::string LoadGrowth<D>::message() const {
 }
 
 template <int D>
-void LoadGrowth<D>::start_watch(const Shooting<D>& shooting, bool at_rest) {
+void LoadGrowth<D>::start_watch(const Shooting<D>& shooting, bool stable) {
   const LoadWay& way = shooting.rod().way();
   const scene::Symmetry symmetry = scene::common_symmetry(scene::symmetry_of(way.from), scene::symmetry_of(way.to));
   way_.watches_determinant = symmetry != scene::Symmetry::axis;
-  way_.watches_stability = scene::is_conservative(way.bounds) && (at_rest || !is_unstable(shooting));
+  way_.watches_stability = scene::is_conservative(way.bounds) && (stable || !is_unstable(shooting));
   way_.may_fall = symmetry != scene::Symmetry::none;
   way_.branch = {};
   way_.branch.keep(0, shooting.determinant());
@@ -239,6 +250,8 @@ void LoadGrowth<D>::forget_way() {
   is_paused_ = false;
   way_.swing_limit_rad = std::numeric_limits<double>::infinity();
   way_.load_steps = 1;
+  way_.keeps_derivatives = false;
+  way_.size_since_derivatives = std::numeric_limits<double>::infinity();
   way_.was_smooth = true;
   way_.watches_determinant = false;
 }
@@ -250,8 +263,10 @@ scene::Status LoadGrowth<D>::run(Shooting<D>& shooting, double swing_limit_rad) 
   way_.swing_limit_rad = way_.swing_rad = swing_limit_rad;
   way_.load_steps = 0;
   shooting.start_unloaded();
+  if (!shooting.newton(shooting.newton_tolerance())) return end_.status = scene::Status::not_converged;
+  start_watch(shooting, true);
   const LoadBounds& bounds = shooting.bounds();
-  return grow(shooting, bounds.load_length * bounds.load_length + bounds.turn_rad, true);
+  return grow(shooting, bounds.load_length * bounds.load_length + bounds.turn_rad);
 }
 
 template <int D>
@@ -297,20 +312,34 @@ bool LoadGrowth<D>::ends_beside_rest(Shooting<D>& shooting) {
 
 // A fold is where steps lead nowhere and the determinant has all but vanished.
 template <int D>
-scene::Status LoadGrowth<D>::run_on(Shooting<D>& shooting, const Shooting<D>* last,
-                                    const Angular<double, D>& tip_turn_B) {
+scene::Status LoadGrowth<D>::run_on(Shooting<D>& shooting, const Last& last, const Angular<double, D>& tip_turn_B) {
   forget_way();
   if (shooting.moments_are_known()) return solve_known_moments(shooting);
   start_ = shooting.nodes();
-  if (shooting.one_equilibrium() && shooting.solve_near(last, tip_turn_B)) return scene::Status::converged;
+  const LoadWay& way = shooting.rod().way();
+  const double size = size_of_change(way.from, way.to);
+  if (last.shooting)
+    way_.size_since_derivatives =
+        size + (last.shooting->has_own_derivatives() ? 0 : last.growth->way_.size_since_derivatives);
+  if (shooting.one_equilibrium() && shooting.solve_near(last.shooting, tip_turn_B)) return scene::Status::converged;
   shooting.set_nodes(start_);
   shooting.set_load(0);
   way_.load_steps = 0;
-  const LoadWay& way = shooting.rod().way();
-  end_.status = grow(shooting, size_of_change(way.from, way.to), false);
+  end_.status = grow_from(shooting, last, size);
   const bool fold = end_.status == scene::Status::load_step_too_small && way_.watches_determinant &&
                     scene::log_fall(way_.start, way_.branch.last()) > -std::log(limit_point_determinant);
   return end_.status = fold ? scene::Status::limit_point : end_.status;
+}
+
+// The derivatives at the last solution serve while the loads have changed by little since they were taken.
+template <int D>
+scene::Status LoadGrowth<D>::grow_from(Shooting<D>& shooting, const Last& last, double size) {
+  way_.keeps_derivatives =
+      last.shooting && way_.size_since_derivatives <= most_stale_share * size_to_zero(last.shooting->determinant()) &&
+      shooting.take_derivatives(*last.shooting);
+  if (!way_.keeps_derivatives && !shooting.newton(shooting.newton_tolerance())) return scene::Status::not_converged;
+  start_watch(shooting, last.stable);
+  return grow(shooting, size);
 }
 
 // The parabola's surprise grows with the third power of the step, that of the line is noise where branches are near;
@@ -325,16 +354,15 @@ double LoadGrowth<D>::growth_after(const StepSize& size) const {
 }
 
 template <int D>
-scene::Status LoadGrowth<D>::grow(Shooting<D>& shooting, double size, bool at_rest) {
+scene::Status LoadGrowth<D>::grow(Shooting<D>& shooting, double size) {
   way_.load_factor = way_.previous_factor = 0;
-  if (!shooting.newton(shooting.newton_tolerance())) return end_.status = scene::Status::not_converged;
-  start_watch(shooting, at_rest);
-  // No farther than to where the determinant can vanish, for all that one load tells; a taut rod slackens first.
-  const scene::Determinant& start = way_.branch.last();
-  const double nearness = way_.watches_determinant ? std::min(1.0, std::exp(start.log_size)) : 1;
-  const double size_to_zero = nearness * (1 + start.log_growth * start.log_growth / 4);
-  way_.next_step = way_.first_step = size_to_zero / std::max(size_to_zero, size);
-  shooting.set_load_tangent(tangent_difference * way_.first_step, tangent_);
+  scene::Determinant start = way_.branch.last();
+  if (!way_.watches_determinant) start.log_size = 0;
+  const double most = size_to_zero(start);
+  way_.next_step = way_.first_step = most / std::max(most, size);
+  // Over the whole step where another solve has left the nodes as far from the solution as it may: a small difference
+  // makes much of that.
+  shooting.set_load_tangent((way_.keeps_derivatives ? 1 : tangent_difference) * way_.first_step, tangent_);
   return grow_on(shooting);
 }
 

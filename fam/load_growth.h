@@ -53,9 +53,15 @@ class LoadGrowth {
   bool is_paused() const { return is_paused_; }
   // The same without growing any load. False: that is left.
   bool run_at_once(Shooting<D>& shooting);
-  // From the shape that the nodes hold at the start of the way, if known as another one's solution, and to where the
-  // tip has turned by about so much; also limit_point.
-  scene::Status run_on(Shooting<D>& shooting, const Shooting<D>* last, const Angular<double, D>& tip_turn_B);
+  // The solution at which a way starts; null where it is not known. stable: surely.
+  struct Last {
+    const Shooting<D>* shooting = nullptr;
+    const LoadGrowth* growth = nullptr;
+    bool stable = false;
+  };
+  // From the shape that the nodes hold at the start of the way, and to where the tip has turned by about so much; also
+  // limit_point.
+  scene::Status run_on(Shooting<D>& shooting, const Last& last, const Angular<double, D>& tip_turn_B);
   // Why not converged.
   std::string message() const;
 
@@ -84,13 +90,15 @@ class LoadGrowth {
   // The full load at once, from the march from the clamp, to a shape so near to the rest shape that no critical point
   // is taken to lie between them. Only for loads with an energy.
   bool ends_beside_rest(Shooting<D>& shooting);
-  // size: of the change of the loads; 1 is too little to make a straight rod critical. at_rest: from no load, where a
-  // rod is stable.
-  scene::Status grow(Shooting<D>& shooting, double size, bool at_rest);
+  // size: of the change of the loads; 1 is too little to make a straight rod critical.
+  scene::Status grow_from(Shooting<D>& shooting, const Last& last, double size);
+  // From the start of the way, whose derivatives are at hand.
+  scene::Status grow(Shooting<D>& shooting, double size);
   scene::Status grow_on(Shooting<D>& shooting);
   // After a step in which a node turned by so much.
   bool swings_too_far(Shooting<D>& shooting, double turn_rad);
-  void start_watch(const Shooting<D>& shooting, bool at_rest);
+  // stable: known to be.
+  void start_watch(const Shooting<D>& shooting, bool stable);
   // How many times the nodes change by what they did since the last loads but one and two, and by the tangent.
   struct Shares {
     double previous = 0, earlier = 0, tangent = 0;
@@ -129,6 +137,9 @@ class LoadGrowth {
     bool watches_stability = false;  // the loads have an energy, and the rod was stable so far
     bool may_fall = false;           // where its symmetry can hold it
     int load_steps = 0;
+    // Of the changes of the loads since another solve took the derivatives that this one started with.
+    double size_since_derivatives = std::numeric_limits<double>::infinity();
+    bool keeps_derivatives = false;  // those serve for the first step
     double swing_limit_rad = std::numeric_limits<double>::infinity();
     double swing_rad = 0;  // of an arc: measured, and the turns of the nodes since then
   } way_;

@@ -58,6 +58,7 @@ void Shooting<D>::set(const LoadWay& way, std::span<const int> arcs_per_span, La
                       double newton_tolerance, const Shooting* fewer) {
   rod_.set(way, arcs_per_span, law, model);
   newton_tolerance_ = newton_tolerance;
+  has_own_derivatives_ = false;
   length_mm_ = way.to.back().end_mm;
   least_stiffness_Nmm2_ = std::numeric_limits<double>::infinity();
   for (const scene::Span& span : way.to)
@@ -226,6 +227,7 @@ bool Shooting<D>::newton_one_segment(bool keep_slope, double tolerance, const On
       if (conjugate_points) *conjugate_points = points.count();
       residual = equations.residual.template head<rotations>();
       slope_ = equations.arrival.template topLeftCorner<rotations, rotations>();
+      has_own_derivatives_ = true;
     }
     last_residual = residual;
     step = -slope_.inverse() * residual;
@@ -282,7 +284,10 @@ bool Shooting<D>::evaluate_system(bool keep_factors, bool& mismatches_are_small,
   SegmentEquations equations;
   ConjugatePoints points;
   mismatches_are_small = true;
-  if (!keep_factors) system_.set_zero();
+  if (!keep_factors) {
+    system_.set_zero();
+    has_own_derivatives_ = true;
+  }
   for (std::size_t k = segments_.size(); k-- > 0;) {
     if (keep_factors) {
       Node state = nodes_[k];
@@ -364,8 +369,9 @@ void Shooting<D>::set_load_tangent(double difference, std::vector<Fields<D, 1>>&
 }
 
 template <int D>
-bool Shooting<D>::newton(double tolerance, const OnTheWay* way) {
-  return segments_.size() == 1 ? newton_one_segment(false, tolerance, way) : newton_segments(false, tolerance, way);
+bool Shooting<D>::newton(double tolerance, const OnTheWay* way, bool keep_derivatives) {
+  return segments_.size() == 1 ? newton_one_segment(keep_derivatives, tolerance, way)
+                               : newton_segments(keep_derivatives, tolerance, way);
 }
 
 // Of a taut rod the determinant is cosh(int sqrt(n_x / EI) ds) for each plane of bending.
@@ -394,6 +400,7 @@ scene::Determinant Shooting<D>::exact_determinant() {
   } else {
     evaluate_segment<rotations>(0, equations);
     slope_ = equations.arrival.template topLeftCorner<rotations, rotations>();
+    has_own_derivatives_ = true;
   }
   return determinant();
 }

@@ -172,8 +172,8 @@ class Shooting {
     for (std::size_t k = 0; k < segments_.size(); ++k) nodes_[k] = state_at(segments_[k].end_arc - 1);
     nodes_.back().wrench = {};
   }
-  // From the nodes as they are to those of the present load.
-  bool newton(double tolerance, const OnTheWay* way = nullptr);
+  // From the nodes as they are to those of the present load. keep_derivatives: those at hand serve for the first step.
+  bool newton(double tolerance, const OnTheWay* way = nullptr, bool keep_derivatives = false);
   // The full load from start_from_clamp(), first with a quarter of the arcs or one, whose derivatives then serve for
   // all; or from a march from the tip where the loads all but follow.
   bool solve_at_once();
@@ -186,6 +186,11 @@ class Shooting {
   bool solve_near(const Shooting* other, const Angular<double, D>& tip_turn_B);
   // The full load from the solution of the one with fewer arcs that this was set by.
   bool solve_from(const Shooting& fewer);
+  // The derivatives that another one's Newton left, for the first step from its solution. False: they are not those of
+  // these arcs.
+  bool take_derivatives(const Shooting& other);
+  // Whether those at hand are this one's, not another one's or a rigid rod's.
+  bool has_own_derivatives() const { return has_own_derivatives_; }
 
   // Of the equations' derivatives, after newton(): as that left them, or at the solution.
   scene::Determinant determinant() const;
@@ -245,6 +250,7 @@ class Shooting {
   bool solve_few_arcs();
   bool newton_from_rigid(double first_shrinkage, double least_shrinkage);
   static int* points_wanted(const OnTheWay* way) { return D == 3 && way ? way->conjugate_points : nullptr; }
+  void copy_derivatives(const Shooting& other);
   // points: wanted of a rod in space, where not null.
   template <int N>
   void evaluate_segment(std::size_t k, SegmentEquations& equations, ConjugatePoints* points = nullptr) const;
@@ -287,6 +293,7 @@ class Shooting {
   std::vector<double> softness_;  // of each segment: length over the root of EI, summed over the planes of bending
   BandSystem<rotations + unknowns - 1, 2 * unknowns - rotations - 1> system_;  // of several segments
   Eigen::Matrix<double, rotations, rotations> slope_;                          // of one segment
+  bool has_own_derivatives_ = false;
   bool moments_are_known_ = false;
   std::unique_ptr<Shooting> few_arcs_;  // a quarter of the arcs, where the full load is solved for at once
   std::vector<int> few_counts_;

@@ -13,6 +13,12 @@ namespace {
 // Study I 1.05 of the instructions.
 constexpr double rigid_share = 0.25;
 
+bool has_same_section(const scene::Span& a, const scene::Span& b) {
+  return a.stiffness.torsion_Nmm2 == b.stiffness.torsion_Nmm2 && a.stiffness.bending_Nmm2 == b.stiffness.bending_Nmm2 &&
+         a.stiffness.axial_N == b.stiffness.axial_N && a.stiffness.shear_N == b.stiffness.shear_N &&
+         std::abs(a.length_mm() - b.length_mm()) <= 1e-3 * a.length_mm();
+}
+
 // The arc from its proximal end to its distal one, as if its tendons ran along it.
 template <int D>
 BasicArcConstants<D> backwards(BasicArcConstants<D> arc) {
@@ -154,6 +160,7 @@ bool Shooting<D>::solve_at_once() {
     set_load(1);
     nodes_ = few_arcs_->nodes_;
     slope_ = few_arcs_->slope_;
+    has_own_derivatives_ = few_arcs_->has_own_derivatives_;
     newton_steps_ += few_arcs_->newton_steps_;
     return newton_one_segment(true, newton_tolerance_);
   }
@@ -173,6 +180,7 @@ bool Shooting<D>::solve_from_tip() {
 
 template <int D>
 bool Shooting<D>::newton_from_rigid(double first_shrinkage, double least_shrinkage) {
+  has_own_derivatives_ = false;
   if constexpr (D == 3) slope_ = -nodes_[0].rotation_SB.transpose();
   else slope_(0, 0) = -1;
   return newton_one_segment(true, newton_tolerance_, nullptr, first_shrinkage, least_shrinkage);
@@ -191,6 +199,7 @@ bool Shooting<D>::solve_near(const Shooting* other, const Angular<double, D>& ti
   Rotation& tip_SB = nodes_[0].rotation_SB;
   tip_SB = tip_SB * rotation_matrix(tip_turn_B).transpose();
   slope_ = other->slope_;
+  has_own_derivatives_ = false;
   return newton_one_segment(true, newton_tolerance_);
 }
 
@@ -201,10 +210,28 @@ bool Shooting<D>::solve_from(const Shooting& fewer) {
   set_load(fewer.rod_.load_factor());
   const scene::Determinant determinant = fewer.determinant();
   const OnTheWay way{determinant, leading_turn_rad * std::min(1.0, std::exp(determinant.log_size / 2))};
-  slope_ = fewer.slope_;
-  if (segments_.size() == 1) return newton_one_segment(true, newton_tolerance_, &way);
-  system_ = fewer.system_;
-  return newton_segments(true, newton_tolerance_, &way);
+  copy_derivatives(fewer);
+  return newton(newton_tolerance_, &way, true);
+}
+
+template <int D>
+void Shooting<D>::copy_derivatives(const Shooting& other) {
+  slope_ = other.slope_;
+  if (segments_.size() > 1) system_ = other.system_;
+  has_own_derivatives_ = false;
+}
+
+// Of the same rod in the same segments.
+template <int D>
+bool Shooting<D>::take_derivatives(const Shooting& other) {
+  const std::span<const scene::Span> spans = rod_.way().to, others = other.rod_.way().to;
+  const auto same_arcs = [](ArcRange a, ArcRange b) { return a.first_arc == b.first_arc && a.end_arc == b.end_arc; };
+  if (rod_.model() != other.rod_.model() || !std::ranges::equal(rod_.arcs_per_span(), other.rod_.arcs_per_span()) ||
+      !std::ranges::equal(spans, others, has_same_section) ||
+      !std::ranges::equal(segments_, other.segments_, same_arcs))
+    return false;
+  copy_derivatives(other);
+  return true;
 }
 
 template void Shooting<2>::start_unloaded();
@@ -221,5 +248,7 @@ template bool Shooting<2>::solve_near(const Shooting<2>*, const Angular<double, 
 template bool Shooting<3>::solve_near(const Shooting<3>*, const Angular<double, 3>&);
 template bool Shooting<2>::solve_from(const Shooting<2>&);
 template bool Shooting<3>::solve_from(const Shooting<3>&);
+template bool Shooting<2>::take_derivatives(const Shooting<2>&);
+template bool Shooting<3>::take_derivatives(const Shooting<3>&);
 
 }  // namespace fam

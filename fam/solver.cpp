@@ -118,7 +118,9 @@ Status Solver::Impl::solve_with_arcs(Attempt& attempt, bool on) {
   } else {
     std::size_t span = 0;
     int first_arc = 0;
-    run.status = run.engine.run_on(&solved->run.engine, expected_tip_turn_B(), [&](int arc) {
+    const bool turns_at_once = !run.engine.is_march() && run.engine.has_one_solution();
+    const Vector3d tip_turn_B = turns_at_once ? expected_tip_turn_B() : Vector3d(Vector3d::Zero());
+    run.status = run.engine.run_on(&solved->run.engine, tip_turn_B, [&](int arc) {
       while (arc >= first_arc + arcs[span]) first_arc += arcs[span++];
       const scene::Span& before = attempt.problem.spans_before()[span];
       const bool at_end = arc + 1 == first_arc + arcs[span];

@@ -81,6 +81,12 @@ double pose_distance_mm(const scene::Pose& a, const scene::Pose& b, double lengt
   return std::max((a.position_B_mm - b.position_B_mm).norm(), length_mm * (a.rotation_BS - b.rotation_BS).norm());
 }
 
+scene::Pose kept_tip(const scene::Scene& scene, const fam::Options& options) {
+  Solver solver = kept(scene, options);
+  EXPECT_TRUE(solver.solve().converged());
+  return solver.tip();
+}
+
 TEST(Solver, NoAllocationAfterMake) {
   Joystick joystick(1);
   fam::Options options;
@@ -151,6 +157,125 @@ TEST(Solver, DerivativesAtHandSaveNewtonSteps) {
     return steps;
   };
   EXPECT_LT(newton_steps(true), newton_steps(false) - 25);
+}
+
+// A catheter tube with weight, a tendon and a force at its side: more than one equilibrium for all that its loads tell.
+scene::Scene catheter_tube() {
+  scene::Stiffness stiffness = slender(191.4, 132);
+  stiffness.mass_per_length_kg_per_m = 0.00471;
+  return uniform_rod(300, stiffness,
+                     {scene::Gravity{{0, -9.81, 0}}, scene::Tendon{{1.2, 0}, 0.5, 300},
+                      scene::Force{150, Frame::fixed, {0, 0, 0.02}}});
+}
+
+// Where loads that may leave several equilibria change by little, the last solution's derivatives serve: no more Newton
+// steps than marches that correct a prediction. They are taken anew as changes add up.
+TEST(Solver, SmallChangesNeedFewNewDerivatives) {
+  fam::Options options;
+  options.tolerance_mm = 0.3;
+  Solver solver = kept(catheter_tube(), options);
+  ASSERT_TRUE(solver.solve().converged());
+  constexpr int solves = 200;
+  int newton_steps = 0;
+  for (int k = 1; k <= solves; ++k) {
+    solver.set_tension_N(1, 0.5 + 0.002 * k);
+    const Solver::Outcome outcome = solver.solve();
+    ASSERT_TRUE(outcome.converged()) << k;
+    EXPECT_EQ(outcome.load_steps, 1);
+    newton_steps += outcome.newton_steps;
+  }
+  EXPECT_LT(newton_steps, 1.5 * solves);  // 2 each with derivatives at the start of every way
+  Solver cold = kept(solver.scene(), options);
+  ASSERT_TRUE(cold.solve().converged());
+  EXPECT_LT(pose_distance_mm(solver.tip(), cold.tip(), 300), 0.02);
+  EXPECT_GT(pose_distance_mm(solver.tip(), kept_tip(support::stiffer(solver.scene()), options), 300), 2);
+}
+
+// A column pushed past its critical load in steps so small that none needs derivatives of its own. With next to nothing
+// across it buckles to that side, in steps as when the load grows at once; on its axis it stays straight, unstable.
+TEST(Solver, SmallChangesAddUp) {
+  const double EI = 1000, L = 100, euler_N = EI * std::pow(M_PI / (2 * L), 2);
+  for (const double across_N : {1e-5, 0.0}) {
+    scene::Scene column =
+        uniform_rod(L, slender(EI, 700), {scene::Force{L, Frame::fixed, {-0.8 * euler_N, across_N, across_N / 2}}});
+    fam::Options options;
+    options.tolerance_mm = 1e-4;
+    Solver solver = kept(column, options);
+    ASSERT_TRUE(solver.solve().converged());
+    EXPECT_EQ(solver.stable(), true);
+    for (int k = 1; k <= 400; ++k) {
+      solver.set_force_N(0, {-(0.8 + 1e-3 * k) * euler_N, across_N, across_N / 2});
+      ASSERT_TRUE(solver.solve().converged()) << across_N << ' ' << k;
+    }
+    EXPECT_EQ(solver.stable(), across_N > 0);
+    const Vector3d tip_mm = solver.tip().position_B_mm;
+    ASSERT_TRUE(solver.solve(Solver::Start::unloaded).converged());
+    EXPECT_LT((solver.tip().position_B_mm - tip_mm).norm(), 2e-4) << across_N;
+    EXPECT_EQ(tip_mm[1] > 50, across_N > 0) << tip_mm.transpose();
+  }
+}
+
+// Small steps pass a critical load of two planes at once, where the determinant keeps its sign, with a force across
+// that round-off hides: whatever the rod does there, a straight one is not called stable.
+TEST(Solver, SmallChangesHideNoCriticalLoad) {
+  const double EI = 1000, L = 100, euler_N = EI * std::pow(M_PI / (2 * L), 2);
+  for (const double across_N : {1e-13, 1e-16, 1e-20}) {
+    fam::Options options;
+    options.tolerance_mm = 1e-4;
+    Solver solver =
+        kept(uniform_rod(L, slender(EI, 700), {scene::Force{L, Frame::fixed, {-0.9 * euler_N, across_N, 0}}}), options);
+    ASSERT_TRUE(solver.solve().converged());
+    EXPECT_EQ(solver.stable(), true);
+    for (int k = 1; k <= 100; ++k) {
+      solver.set_force_N(0, {-(0.9 + 0.0021 * k) * euler_N, across_N, 0});
+      solver.solve();
+    }
+    const double force_N = std::get<scene::Force>(solver.scene().loads[0]).value_N[0];
+    const bool straight = std::abs(solver.tip().position_B_mm[0] - L) < 1e-3;
+    EXPECT_FALSE(straight && solver.stable() == true) << across_N << ' ' << force_N;
+  }
+}
+
+// A softer rod starts from the shape of the stiffer one, not from its derivatives: with next to nothing across it they
+// would tell of no critical load.
+TEST(Solver, ASofterRodBucklesAsFromNoLoad) {
+  const double EI = 1000, L = 100, euler_N = EI * std::pow(M_PI / (2 * L), 2);
+  fam::Options options;
+  options.tolerance_mm = 1e-4;
+  for (const double across_N : {1e-3, 1e-8}) {
+    const scene::Scene column =
+        uniform_rod(L, slender(EI, 700), {scene::Force{L, Frame::fixed, {-0.8 * euler_N, across_N, across_N / 2}}});
+    for (const double share : {0.9, 0.7, 0.5}) {
+      Solver solver = kept(column, options);
+      ASSERT_TRUE(solver.solve().converged());
+      solver.set_stiffness_Nmm2(0, share * Vector3d(700, EI, EI));
+      ASSERT_TRUE(solver.solve().converged());
+      EXPECT_EQ(solver.stable(), true);
+      const Vector3d tip_mm = solver.tip().position_B_mm;
+      ASSERT_TRUE(solver.solve(Solver::Start::unloaded).converged());
+      EXPECT_LT((solver.tip().position_B_mm - tip_mm).norm(), 2e-3) << across_N << ' ' << share;
+    }
+  }
+}
+
+// A column beyond its critical load that is straight for want of anything across it: pushed aside it answers as the
+// unstable rod that it is, and so it does after that.
+TEST(Solver, SmallChangesOfAnUnstableRodLeaveItSo) {
+  const double EI = 1000, L = 100, euler_N = EI * std::pow(M_PI / (2 * L), 2);
+  fam::Options options;
+  options.tolerance_mm = 1e-6;
+  Solver solver =
+      kept(uniform_rod(L, slender(EI, 700), {scene::Force{L, Frame::fixed, {-1.5 * euler_N, 0, 0}}}), options);
+  ASSERT_TRUE(solver.solve().converged());
+  for (int k = 0; k < 5; ++k) {
+    EXPECT_EQ(solver.stable(), false) << k;
+    solver.set_force_N(0, {-1.5 * euler_N, 1e-4 * (k + 1), 5e-5 * (k + 1)});
+    ASSERT_TRUE(solver.solve().converged()) << k;
+    EXPECT_LT(solver.tip().position_B_mm[1], 0) << k;  // against the force
+  }
+  solver.set_force_N(0, {-1.15 * euler_N, 5e-4, 2.5e-4});
+  EXPECT_TRUE(solver.solve().converged());
+  EXPECT_EQ(solver.stable(), false);
 }
 
 // Warm and cold lead to one answer where the rod has but one; the twin, a stiffer rod, is seen.
