@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace fam {
 namespace {
@@ -224,11 +225,13 @@ void Shooting<D>::copy_derivatives(const Shooting& other) {
 // Of the same rod in the same segments.
 template <int D>
 bool Shooting<D>::take_derivatives(const Shooting& other) {
-  const std::span<const scene::Span> spans = rod_.way().to, others = other.rod_.way().to;
+  const auto alike = [](const auto& a, const auto& b, auto same) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
+  };
   const auto same_arcs = [](ArcRange a, ArcRange b) { return a.first_arc == b.first_arc && a.end_arc == b.end_arc; };
-  if (rod_.model() != other.rod_.model() || !std::ranges::equal(rod_.arcs_per_span(), other.rod_.arcs_per_span()) ||
-      !std::ranges::equal(spans, others, has_same_section) ||
-      !std::ranges::equal(segments_, other.segments_, same_arcs))
+  const LoadedRod<D>& rod = other.rod_;
+  if (rod_.model() != rod.model() || !alike(rod_.arcs_per_span(), rod.arcs_per_span(), std::equal_to<>()) ||
+      !alike(rod_.way().to, rod.way().to, has_same_section) || !alike(segments_, other.segments_, same_arcs))
     return false;
   copy_derivatives(other);
   return true;
