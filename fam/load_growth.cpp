@@ -45,7 +45,9 @@ constexpr double tangent_difference = 1e-3;         // of loads, over the step; 
 // without. All of these are planar; with 1e-6 N across, and so in space, none ends elsewhere. In space 0.1 lets random
 // scene 99989, a coil, end in work_limit. Below the least it is what load_step_tolerance makes of a tangent.
 constexpr double most_missed_share = 0.1, least_missed_rad = load_step_tolerance / tangent_difference;
-// Of the change of the loads that leads to where the determinant can vanish; chosen, not measured.
+// Of the change of the loads that leads to where the determinant can vanish. Of 1078 strips, arches, couples, columns
+// and rods of any kind, led from one set of loads to another in 60 or 300 steps, all end as with derivatives taken
+// anew.
 constexpr double most_stale_share = 0.1;
 constexpr int most_passes = 100;  // of the rod's arcs, within the work limit; chosen, not measured
 
