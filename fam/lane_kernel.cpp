@@ -6,6 +6,7 @@
 #include "fam/shooting.h"
 
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 namespace fam::FAM_UNIT {
@@ -17,9 +18,10 @@ namespace at = lane_number;
 
 constexpr double largest_turn_squared = 4;  // of an arc, fam/pack.h
 
-template <bool with_shear, int D>
+template <bool with_shear, int D, bool with_tendons>
 class Rods {
  public:
+  using Section = std::conditional_t<with_tendons, LaneTendonSection<P, with_shear>, LaneSection<P, with_shear, D>>;
   static constexpr int rotations = rotations_of(D);
   using Rotation = Eigen::Matrix<P, D, D>;
   using Slope = Eigen::Matrix<P, rotations, rotations>;
@@ -40,7 +42,9 @@ class Rods {
   };
 
   explicit Rods(const LaneRods& rods)
-      : rods_(rods), numbers_(at::count * rods.spans.size()), motions_(static_cast<std::size_t>(rods.arc_count)) {
+      : rods_(rods),
+        numbers_(static_cast<std::size_t>(rods.numbers) * rods.spans.size()),
+        motions_(static_cast<std::size_t>(rods.arc_count)) {
     if (!rods.estimate) return;
     halves_.resize(motions_.size());
     finer_.resize(2 * motions_.size());
@@ -79,19 +83,20 @@ class Rods {
   static void turn_rows(Rotation& rotation, Turn&& turn) {
     for (int row = 0; row < D; ++row) rotation.row(row) = turn(Vector<P, D>(rotation.row(row).transpose())).transpose();
   }
-  const P* numbers(std::size_t span) const { return &numbers_[at::count * span]; }
+  const P* numbers(std::size_t span) const { return &numbers_[static_cast<std::size_t>(rods_.numbers) * span]; }
 
   // The last lanes of an incomplete pack repeat its first row.
   void set(const double* values, const std::ptrdiff_t* rows, int count) {
     for (std::size_t i = 0; i < rods_.spans.size(); ++i) {
-      for (int k = 0; k < at::count; ++k) numbers_[at::count * i + k] = P(rods_.spans[i].numbers[k]);
+      P* const numbers = &numbers_[static_cast<std::size_t>(rods_.numbers) * i];
+      for (int k = 0; k < rods_.numbers; ++k) numbers[k] = P(rods_.spans[i].numbers[k]);
     }
     for (const LaneTerm& term : rods_.terms) {
       P value;
       for (int lane = 0; lane < FAM_LANES; ++lane) {
         value.value[lane] = values[rows[lane < count ? lane : 0] * rods_.columns + term.column];
       }
-      numbers_[static_cast<std::size_t>(at::count * term.span + term.number)] += P(term.slope) * value;
+      numbers_[static_cast<std::size_t>(rods_.numbers * term.span + term.number)] += P(term.slope) * value;
     }
   }
 
@@ -120,8 +125,13 @@ class Rods {
       }
       if (D == 3) by_moments += arcs * h * moment * P(span.spin_rate_per_Nmm2);
       turn += arcs * h * moment * P(1 / span.least_stiffness_Nmm2) + P(span.rest_turn_rad);
+      P tensions(0);
+      if constexpr (with_tendons) {
+        const Vector<P, 3> bending = tendon_moment(span, n, tensions);
+        turn += arcs * h * sqrt(bending.dot(bending)) * P(1 / span.least_stiffness_Nmm2);
+      }
       arms_turn += arcs * h * arms * P(1 / span.buckling_stiffness_Nmm2);
-      strain = larger(strain, force * P(span.linear_compliance_per_N));
+      strain = larger(strain, (force + tensions) * P(span.linear_compliance_per_N));
       longest = larger(longest, h * h * force * P(1 / span.least_stiffness_Nmm2));
     }
     Mask within = longest <= P(rods_.longest_load_length * rods_.longest_load_length);
@@ -133,11 +143,28 @@ class Rods {
     return within;
   }
 
-  // The rest shape, and the derivatives there: a turn of the tip turns the clamp.
+  // That tendons along the tangent leave to the rod, -r x T e_x, and the sum of their tensions.
+  static Vector<P, 3> tendon_moment(const LaneSpan& span, const P* numbers, P& tensions_N) {
+    Vector<P, 3> sum = Vector<P, 3>::Zero();
+    for (int i = 0; i < span.tendons; ++i) {
+      const P tension_N = numbers[at::tension + i];
+      sum[1] -= tension_N * P(span.tendon_z_mm[i]);
+      sum[2] += tension_N * P(span.tendon_y_mm[i]);
+      tensions_N += tension_N;
+    }
+    return sum;
+  }
+
+  // The rest shape, tendons that bend it included, and the derivatives there: a turn of the tip turns the clamp.
   void start(Rotation& tip_SB, Slope& inverse) const {
     P numbers[9];
     for (int k = 0; k < 9; ++k) numbers[k] = P(rods_.rest_tip_rotation_SB[k]);
     tip_SB = matrix_at<D>(numbers);
+    if constexpr (with_tendons) {
+      tip_SB.setIdentity();
+      for (std::size_t i = 0; i < rods_.spans.size(); ++i)
+        tip_SB = turned(tip_SB, P(rods_.spans[i].arcs) * turn_at<D>(this->numbers(i) + at::rest_rotation));
+    }
     if constexpr (D == 3) inverse = -tip_SB;
     else inverse(0, 0) = P(-1);
   }
@@ -152,7 +179,7 @@ class Rods {
       const P* n = numbers(i);
       add_point_loads<turns>(n, rotation_SB, wrench);
       const P part(1.0 / finer);
-      const LaneSection<P, with_shear, D> section(span, n, 1.0 / finer);
+      Section section(span, n, 1.0 / finer);
       const Vector<P, D> follower = part * vector_at<D>(n + at::distributed_follower);
       for (int arc = 0; arc < finer * span.arcs; ++arc) {
         const BasicWrench<P, D> distal = wrench;
@@ -223,7 +250,7 @@ class Rods {
   // The motions of the arcs, and beside the coarse ones those of their distal halves.
   void place(const Rotation& tip_SB, std::vector<BasicMotion<P, D>>& motions, int finer) {
     Rotation rotation_SB = tip_SB;
-    const auto keep = [&](std::size_t arc, const LaneSection<P, with_shear, D>& section, const ArcForces<P, D>* forces,
+    const auto keep = [&](std::size_t arc, Section& section, const ArcForces<P, D>* forces,
                           const BasicWrench<P, D>& distal, const BasicScrew<P, D>& screw,
                           const BasicMotion<P, D>& motion, const LaneSpan& span) {
       motions[arc] = motion;
@@ -237,8 +264,8 @@ class Rods {
     else march<true>(rotation_SB, finer, keep);
   }
 
-  FAM_FLATTEN static BasicMotion<P, D> distal_half(const LaneSection<P, with_shear, D>& section,
-                                                   const ArcForces<P, D>* forces, const BasicWrench<P, D>& distal) {
+  FAM_FLATTEN static BasicMotion<P, D> distal_half(Section& section, const ArcForces<P, D>* forces,
+                                                   const BasicWrench<P, D>& distal) {
     auto s = rod_series<6>(section, forces, distal);
     double power = 0.5;
     for (std::size_t k = 0; k < 6; ++k, power /= 2) {
@@ -299,9 +326,9 @@ class Rods {
   P largest_swing_squared_, twist_rad_, shortest_tendon_;
 };
 
-template <bool with_shear, int D>
+template <bool with_shear, int D, bool with_tendons = false>
 void solve(const LaneRods& rods, const double* values, std::span<const std::ptrdiff_t> rows, LaneTip* tips) {
-  Rods<with_shear, D> kernel(rods);
+  Rods<with_shear, D, with_tendons> kernel(rods);
   const std::ptrdiff_t* const end = rows.data() + rows.size();
   for (const std::ptrdiff_t* row = rows.data(); row < end; row += FAM_LANES) {
     kernel.solve(values, row, end - row < FAM_LANES ? static_cast<int>(end - row) : FAM_LANES, tips);
@@ -312,6 +339,8 @@ void solve(const LaneRods& rods, const double* values, std::span<const std::ptrd
 
 void solve_lanes(const LaneRods& rods, const double* values, std::span<const std::ptrdiff_t> rows, LaneTip* tips) {
   if (rods.planar) return (rods.reissner ? solve<true, 2> : solve<false, 2>)(rods, values, rows, tips);
+  if (rods.numbers > at::tension)
+    return (rods.reissner ? solve<true, 3, true> : solve<false, 3, true>)(rods, values, rows, tips);
   return (rods.reissner ? solve<true, 3> : solve<false, 3>)(rods, values, rows, tips);
 }
 

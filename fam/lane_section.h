@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fam/arc_series.h"
+#include "fam/elimination.h"
 #include "fam/lane_rods.h"
 #include "fam/pack.h"
 #include "fam/tendon.h"
@@ -99,16 +100,188 @@ class LaneSection {
   }
   // Of the shortest of straight tendons, over smallest_tendon_stretch: 0 where it has collapsed.
   P tendon_stretch(const BasicScrew<P, D>& screw, const LaneSpan& span) const {
-    if (D == 3) return P(1);
+    if (D == 3) return P(1);  // without tendons
     const P turn = screw.rotation[0];
     return length_mm_ * P(1 - smallest_tendon_stretch) -
            larger(turn * P(span.tendon_arms_mm[0]), turn * P(span.tendon_arms_mm[1]));
   }
 
- private:
+ protected:
   Angular<P, D> angular_compliance_, rest_rotation_;
   Vector<P, D> linear_compliance_;
   P length_mm_;
+};
+
+// The same in space with tendons (fam/tendon.h has the equations; here the pulls are counted from those of tendons along
+// the tangent, which `rest_rotation` holds). To be asked for a strain before its series.
+template <class P, bool with_shear>
+class LaneTendonSection : public LaneSection<P, with_shear, 3> {
+  using Base = LaneSection<P, with_shear, 3>;
+
+ public:
+  LaneTendonSection(const LaneSpan& span, const P* numbers, double part) : Base(span, numbers, part) {
+    count_ = span.tendons;
+    for (int i = 0; i < count_; ++i) {
+      tendons_[i].arm_mm = {P(0), P(span.tendon_y_mm[i]), P(span.tendon_z_mm[i])};
+      tendons_[i].tension_N = numbers[lane_number::tension + i];
+    }
+    compliance_.template head<3>() = this->angular_compliance_;
+    if constexpr (with_shear) compliance_.template tail<3>() = this->linear_compliance_;
+  }
+
+  // Newton's method from tendons along the tangent. Each lane ends by itself, whatever the others do.
+  BasicScrew<P, 3> strain(const BasicWrench<P, 3>& wrench) {
+    const BasicScrew<P, 3> straight = straight_strain(wrench);
+    const Strain loose = vector(straight.rotation, straight.translation_mm);
+    Strain x = loose;
+    P last(1);
+    auto active = P(0) <= P(0);
+    found_ = active;
+    for (int step = 0; step < most_steps && P::any(active); ++step) {
+      Strain newton = x - loose;
+      factors_.setIdentity();
+      const BasicScrew<P, 3> now = screw(x, straight.translation_mm);
+      for (int i = 0; i < count_; ++i) set_first(tendons_[i], now, newton);
+      factorise(factors_);
+      substitute(factors_, newton);
+      P size(0);
+      for (int i = 0; i < count_; ++i) {
+        const Vector<P, 3> change = tangent(tendons_[i], screw(newton, Vector<P, 3>(Vector<P, 3>::Zero())));
+        size = larger(size, sqrt(change.dot(change)) * tendons_[i].inverse_length);
+      }
+      for (int k = 0; k < unknowns; ++k) x[k] = select(active, x[k] - newton[k], x[k]);
+      const auto ends = active & (size * smaller(P(1), size / last) <= P(1e-16));
+      const auto goes_on = active & ~ends & (size < P(largest_step));
+      found_ &= ~active | ends | goes_on;
+      active = goes_on;
+      last = size;
+    }
+    found_ &= ~active;
+    return screw(x, straight.translation_mm);
+  }
+
+  void begin_series(const BasicScrew<P, 3>& first) {
+    Strain unused = Strain::Zero();
+    factors_.setIdentity();
+    for (int i = 0; i < count_; ++i) set_first(tendons_[i], first, unused);
+    factorise(factors_);
+  }
+  void next(std::size_t k, const Vector<P, 3>& moment_Nmm, const Vector<P, 3>& force_N, Vector<P, 3>& rotation,
+            Vector<P, 3>& translation_mm) {
+    Strain x = vector(moment_Nmm, force_N);
+    for (int i = 0; i < count_; ++i) {
+      set_known_parts(tendons_[i], k);
+      const Tendon& tendon = tendons_[i];
+      x -= tendon.tension_N * vector(arm_cross(tendon.arm_mm, tendon.direction[k]), tendon.direction[k]);
+    }
+    x = compliance_.cwiseProduct(x).eval();
+    substitute(factors_, x);
+    const BasicScrew<P, 3> result = screw(x, Vector<P, 3>(Vector<P, 3>::Zero()));
+    for (int i = 0; i < count_; ++i) {
+      Tendon& tendon = tendons_[i];
+      tendon.t[k] = tangent(tendon, result);
+      const P along = tendon.direction[0].dot(tendon.t[k]);
+      tendon.length[k] += along;
+      tendon.direction[k] += (tendon.t[k] - tendon.direction[0] * along) * tendon.inverse_length;
+    }
+    rotation = result.rotation;
+    if constexpr (with_shear) translation_mm = result.translation_mm;
+  }
+
+  // Not positive where a tendon's tangent strays from the rod's by more than a third of that, or was not found: nearer
+  // ones have a length, and turn from one arc to the next by less than unseen_turn_rad (fam/shape.h) asks for.
+  P tendon_stretch(const BasicScrew<P, 3>& strain, const LaneSpan&) const {
+    P farthest(0);
+    for (int i = 0; i < count_; ++i) {
+      Vector<P, 3> stray = tangent(tendons_[i], strain);
+      stray[0] -= this->length_mm_;
+      farthest = larger(farthest, stray.dot(stray));
+    }
+    const P left = this->length_mm_ * this->length_mm_ * P(1. / 9) - farthest;
+    return select(found_, left, P(0));
+  }
+
+ private:
+  static constexpr int unknowns = with_shear ? 6 : 3;
+  static constexpr std::size_t terms = 7;
+  static constexpr int most_steps = 8;           // as OneTendonSection
+  static constexpr double largest_step = 0.5;    // the same
+  using Strain = Eigen::Matrix<P, unknowns, 1>;  // u h, then v h where it gives way
+  struct Tendon {                                // and the series of t h, |t| h and t/|t|
+    Vector<P, 3> arm_mm;
+    P tension_N, inverse_length;
+    Vector<P, 3> t[terms], direction[terms];
+    P length[terms];
+  };
+
+  static Strain vector(const Vector<P, 3>& turn, const Vector<P, 3>& translation) {
+    Strain x;
+    x.template head<3>() = turn;
+    if constexpr (with_shear) x.template tail<3>() = translation;
+    return x;
+  }
+  static BasicScrew<P, 3> screw(const Strain& x, const Vector<P, 3>& rigid) {
+    if constexpr (with_shear) return {x.template head<3>(), x.template tail<3>()};
+    else return {x, rigid};
+  }
+  static Vector<P, 3> tangent(const Tendon& tendon, const BasicScrew<P, 3>& strain) {
+    return strain.translation_mm + cross(strain.rotation, tendon.arm_mm);
+  }
+  BasicScrew<P, 3> straight_strain(const BasicWrench<P, 3>& wrench) const {
+    BasicScrew<P, 3> strain = Base::strain(wrench);
+    if constexpr (with_shear) {
+      for (int i = 0; i < count_; ++i)
+        strain.translation_mm[0] -= this->linear_compliance_[0] * tendons_[i].tension_N;
+    }
+    return strain;
+  }
+
+  // The first coefficients; adds what the tendon pulls otherwise than along the tangent to the residual, and its part of
+  // C S to the factors.
+  void set_first(Tendon& tendon, const BasicScrew<P, 3>& strain, Strain& residual) {
+    tendon.t[0] = tangent(tendon, strain);
+    tendon.length[0] = sqrt(tendon.t[0].dot(tendon.t[0]));
+    tendon.inverse_length = P(1) / tendon.length[0];
+    tendon.direction[0] = tendon.t[0] * tendon.inverse_length;
+    Vector<P, 3> across = tendon.direction[0];
+    across[0] -= P(1);
+    residual += compliance_.cwiseProduct(tendon.tension_N * vector(arm_cross(tendon.arm_mm, across), across));
+    const Vector<P, 3>&r = tendon.arm_mm, &d = tendon.direction[0], c = arm_cross(r, d);
+    const P pull = tendon.tension_N * tendon.inverse_length, r_squared = r.dot(r);
+    const Vector<P, 3> skew[3] = {{P(0), -r[2], r[1]}, {r[2], P(0), -r[0]}, {-r[1], r[0], P(0)}};  // [r] by rows
+    for (int i = 0; i < 3; ++i) {
+      const P by_turn = pull * compliance_[i];
+      for (int j = 0; j < 3; ++j) {
+        factors_(i, j) += by_turn * ((i == j ? r_squared : P(0)) - r[i] * r[j] - c[i] * c[j]);
+        if constexpr (with_shear) factors_(i, j + 3) += by_turn * (skew[i][j] - c[i] * d[j]);
+      }
+      if constexpr (!with_shear) continue;
+      else {
+        const P by_way = pull * compliance_[i + 3];
+        for (int j = 0; j < 3; ++j) {
+          factors_(i + 3, j) -= by_way * (skew[i][j] + d[i] * c[j]);
+          factors_(i + 3, j + 3) += by_way * ((i == j ? P(1) : P(0)) - d[i] * d[j]);
+        }
+      }
+    }
+  }
+  // What coefficient k of |t| and d has without that of t.
+  static void set_known_parts(Tendon& s, std::size_t k) {
+    P length(0);
+    Vector<P, 3> direction = Vector<P, 3>::Zero();
+    for (std::size_t j = 1; j < k; ++j) {
+      length += s.t[j].dot(s.t[k - j]) - s.length[j] * s.length[k - j];
+      direction -= s.direction[k - j] * s.length[j];
+    }
+    s.length[k] = P(0.5) * s.inverse_length * length;
+    s.direction[k] = (direction - s.direction[0] * s.length[k]) * s.inverse_length;
+  }
+
+  Strain compliance_;
+  Eigen::Matrix<P, unknowns, unknowns> factors_;
+  int count_ = 0;
+  Tendon tendons_[most_lane_tendons];  // touched only as far as there are tendons
+  typename P::Mask found_;
 };
 
 }  // namespace fam

@@ -54,8 +54,22 @@ bool is_distributed(int number) {
   return number >= lane_number::distributed_follower && number < lane_number::rest_rotation;
 }
 
+// In space: what tendons along the tangent bend a span by, and their tensions; `tendons`: all that may pull.
+void write_tendons(const Span& span, std::span<const scene::SectionTendon> tendons, LaneSpan& result) {
+  const Vector3d moment_Nmm = straight_tendons(span).moment_Nmm;
+  for (int i = 0; i < 3; ++i)
+    result.numbers[lane_number::rest_rotation + i] += result.angular_compliance[i] * moment_Nmm[i];
+  for (const scene::SectionTendon& tendon : tendons) {
+    const int k = result.tendons++;
+    result.tendon_y_mm[k] = tendon.arm_S_mm[1];
+    result.tendon_z_mm[k] = tendon.arm_S_mm[2];
+    for (const scene::SectionTendon& pulled : span.tendons)
+      if (pulled.arm_S_mm == tendon.arm_S_mm) result.numbers[lane_number::tension + k] = pulled.tension_N;
+  }
+}
+
 template <int D>
-LaneSpan lane_span(const Span& span, RodModel model, int arcs) {
+LaneSpan lane_span(const Span& span, RodModel model, int arcs, std::span<const scene::SectionTendon> tendons) {
   const SpanArcs<D> in_arcs(span, model, 0, arcs);
   LaneSpan result{};
   result.arcs = arcs;
@@ -69,7 +83,8 @@ LaneSpan lane_span(const Span& span, RodModel model, int arcs) {
   if (D == 3) result.spin_rate_per_Nmm2 = spin_rate_per_Nmm2(span);
   if (model == RodModel::reissner) result.linear_compliance_per_N = linear_compliance_per_N(span);
   if (D == 3) result.rest_turn_rad = span.length_mm() * span.rest_curvature_per_mm.norm();
-  for (int k = 0; k < lane_number::count; ++k) result.distributed |= is_distributed(k) && result.numbers[k] != 0;
+  for (int k = 0; k < lane_number::rest_rotation; ++k) result.distributed |= is_distributed(k) && result.numbers[k] != 0;
+  if (D == 3) write_tendons(span, tendons, result);
   for (const scene::SectionTendon& tendon : span.tendons) {
     result.tendon_arms_mm[0] = std::min(result.tendon_arms_mm[0], tendon.arm_S_mm[1]);
     result.tendon_arms_mm[1] = std::max(result.tendon_arms_mm[1], tendon.arm_S_mm[1]);
@@ -98,13 +113,20 @@ LaneProblem::LaneProblem(const Scene& scene, std::span<const BatchColumn> column
     choice_.rotation_BP.setIdentity();
     choice_.round = scene::is_round(given_);
   }
-  has_tendons_ = std::ranges::any_of(given_, [](const Span& span) { return !span.tendons.empty(); });
+  for (const Span& span : spans_of(scene_)) {
+    tendons_.push_back(span.tendons);
+    most_tendons_ = std::max(most_tendons_, static_cast<int>(span.tendons.size()));
+  }
   for (const BatchColumn& column : columns) number_of(scene_, column) = 0;
 }
 
 bool LaneProblem::is_solvable(RodModel model) const {
-  const bool straight_tendons = choice_.plane && model == RodModel::kirchhoff;
-  return choice_.law == Law::sixth_order && (!has_tendons_ || straight_tendons);
+  return choice_.law == Law::sixth_order && (is_planar(model) || most_tendons_ <= most_lane_tendons);
+}
+
+// Tendons that shear may turn from the tangent have lanes in space alone.
+bool LaneProblem::is_planar(RodModel model) const {
+  return choice_.plane && (most_tendons_ == 0 || model == RodModel::kirchhoff);
 }
 
 // The spans of a scene as they are solved.
@@ -123,13 +145,14 @@ void LaneProblem::set_spans(RodModel model, std::span<const int> arcs_per_span) 
   lane_spans_.clear();
   double compliance_per_Nmm = 0;
   for (std::size_t i = 0; i < spans.size(); ++i) {
-    lane_spans_.push_back(lane_span<D>(spans[i], model, arcs_per_span[i]));
+    lane_spans_.push_back(lane_span<D>(spans[i], model, arcs_per_span[i], tendons_[i]));
     lane_spans_.back().compliance_to_clamp_per_Nmm = compliance_per_Nmm;
     compliance_per_Nmm += spans[i].length_mm() / lane_spans_.back().buckling_stiffness_Nmm2;
     if (choice_.round) lane_spans_.back().twist_per_Nmm2 = twist_per_Nmm2(given_[i]);
     rest_tip_BS *= rotation_matrix(Vector3d(spans[i].length_mm() * spans[i].rest_curvature_per_mm));
   }
   Eigen::Map<Matrix3d>(rods_.rest_tip_rotation_SB) = rest_tip_BS;  // by columns: its transpose by rows
+  rods_.numbers = lane_number::tension + (D == 3 ? most_tendons_ : 0);
   const Scene nothing = unloaded(scene_);
   terms_.clear();
   for (std::size_t column = 0; column < columns_.size(); ++column) {
@@ -137,8 +160,8 @@ void LaneProblem::set_spans(RodModel model, std::span<const int> arcs_per_span) 
     number_of(unit, columns_[column]) = 1;
     const std::span<const Span> loaded = spans_of(unit);
     for (std::size_t i = 0; i < loaded.size(); ++i) {
-      const LaneSpan by_one = lane_span<D>(loaded[i], model, arcs_per_span[i]);
-      for (int k = 0; k < lane_number::count; ++k) {
+      const LaneSpan by_one = lane_span<D>(loaded[i], model, arcs_per_span[i], tendons_[i]);
+      for (int k = 0; k < rods_.numbers; ++k) {
         if (by_one.numbers[k] == 0) continue;
         terms_.push_back({static_cast<int>(i), k, static_cast<int>(column), by_one.numbers[k]});
         lane_spans_[i].distributed |= is_distributed(k);
@@ -151,13 +174,13 @@ void LaneProblem::set_spans(RodModel model, std::span<const int> arcs_per_span) 
 }
 
 LaneRods& LaneProblem::set(RodModel model, std::span<const int> arcs_per_span) {
-  if (choice_.plane) set_spans<2>(model, arcs_per_span);
+  if (is_planar(model)) set_spans<2>(model, arcs_per_span);
   else set_spans<3>(model, arcs_per_span);
   rods_.spans = lane_spans_;
   rods_.terms = terms_;
   rods_.arc_count = std::accumulate(arcs_per_span.begin(), arcs_per_span.end(), 0);
   rods_.columns = static_cast<int>(columns_.size());
-  rods_.planar = choice_.plane.has_value();
+  rods_.planar = is_planar(model);
   rods_.march = choice_.march;
   rods_.reissner = model == RodModel::reissner;
   rods_.round = choice_.round;

@@ -27,6 +27,7 @@ class LaneProblem {
   LaneRods& set(RodModel model, std::span<const int> arcs_per_span);
 
  private:
+  bool is_planar(RodModel model) const;
   std::span<const scene::Span> spans_of(const scene::Scene& scene);
   template <int D>
   void set_spans(RodModel model, std::span<const int> arcs_per_span);
@@ -36,7 +37,8 @@ class LaneProblem {
   scene::SpanCutter cutter_;
   scene::Reused<scene::Span> given_, solved_;
   Choice choice_;
-  bool has_tendons_ = false;
+  std::vector<std::vector<scene::SectionTendon>> tendons_;  // of each span, all that may pull
+  int most_tendons_ = 0;
   std::vector<LaneSpan> lane_spans_;
   std::vector<LaneTerm> terms_;
   LaneRods rods_{};
