@@ -1,6 +1,6 @@
 // The kernel of fam/lanes.h, compiled once for each vector unit: FAM_UNIT names its namespace, FAM_LANES and FAM_LEVEL
 // its pack. No double goes through a template here: what the linker kept of it would run on every processor.
-#include "fam/lane_section.h"
+#include "fam/lane_tendons.h"
 #include "fam/load_length.h"
 #include "fam/rotation.h"
 #include "fam/shooting.h"

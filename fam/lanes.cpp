@@ -83,7 +83,8 @@ LaneSpan lane_span(const Span& span, RodModel model, int arcs, std::span<const s
   if (D == 3) result.spin_rate_per_Nmm2 = spin_rate_per_Nmm2(span);
   if (model == RodModel::reissner) result.linear_compliance_per_N = linear_compliance_per_N(span);
   if (D == 3) result.rest_turn_rad = span.length_mm() * span.rest_curvature_per_mm.norm();
-  for (int k = 0; k < lane_number::rest_rotation; ++k) result.distributed |= is_distributed(k) && result.numbers[k] != 0;
+  for (int k = 0; k < lane_number::rest_rotation; ++k)
+    result.distributed |= is_distributed(k) && result.numbers[k] != 0;
   if (D == 3) write_tendons(span, tendons, result);
   for (const scene::SectionTendon& tendon : span.tendons) {
     result.tendon_arms_mm[0] = std::min(result.tendon_arms_mm[0], tendon.arm_S_mm[1]);

@@ -18,12 +18,13 @@ using scene::Frame;
 using scene::Status;
 
 // Gravity, a fixed force on the tip and a tendon: all that a column may name.
-scene::Scene catheter() {
+scene::Scene catheter(double force_z_N = 0.3) {
   scene::Stiffness stiffness = support::slender(1500, 1000);
   stiffness.mass_per_length_kg_per_m = 0.03;
-  return support::uniform_rod(40, stiffness,
-                              {scene::Gravity{{0, 0, -9.81}}, scene::Force{40, Frame::fixed, {0.1, 0.2, 0.3}, {0, 0}},
-                               scene::Tendon{{1, 0}, 1, 40}, scene::Moment{25, Frame::follower, {0, 0, 5}}});
+  return support::uniform_rod(
+      40, stiffness,
+      {scene::Gravity{{0, 0, -9.81}}, scene::Force{40, Frame::fixed, {0.1, 0.2, force_z_N}, {0, 0}},
+       scene::Tendon{{1, 0}, 1, 40}, scene::Moment{25, Frame::follower, {0, 0, 5}}});
 }
 
 const std::vector<BatchColumn> columns{{1, 1}, {2, 0}, {1, 0}, {3, 2}, {0, 2}};
@@ -43,16 +44,17 @@ fam::Solver solver_of(const scene::Scene& scene, const fam::Options& options = {
   return std::get<fam::Solver>(fam::Solver::make(scene, options));
 }
 
+// The force is too large for lanes, which end Newton's method elsewhere (lanes_test.cpp).
 TEST(Batch, EachRowIsWhatASolverGives) {
   const RowMajorMatrix values = random_values(30);
-  const fam::BatchResult batch = fam::solve_batch(catheter(), columns, values);
+  const fam::BatchResult batch = fam::solve_batch(catheter(3), columns, values);
   ASSERT_EQ(batch.position_mm.rows(), 30);
   ASSERT_EQ(batch.rotation_wxyz.rows(), 30);
   ASSERT_EQ(batch.status.size(), 30u);
   double spread_mm = 0;
   for (Eigen::Index k = 0; k < values.rows(); ++k) {
-    fam::Solver solver = solver_of(catheter());
-    solver.set_force_N(1, {values(k, 2), values(k, 0), 0.3});  // z stays the scene's
+    fam::Solver solver = solver_of(catheter(3));
+    solver.set_force_N(1, {values(k, 2), values(k, 0), 3});  // z stays the scene's
     solver.set_tension_N(2, values(k, 1));
     solver.set_moment_Nmm(3, {0, 0, values(k, 3)});
     solver.set_acceleration_m_per_s2(0, {0, 0, values(k, 4)});

@@ -150,10 +150,11 @@ std::vector<std::pair<std::string, scene::Scene>> rods_of_every_kind() {
       {"fixed off the centreline", rod(strip, {Force{40, Frame::fixed, {-0.2, 0.3, 0.2}, {2, -3}}})},
       {"fixed, distributed", rod(strip, {DistributedForce{5, 35, Frame::fixed, {0.003, 0.008, 0.01}},
                                          DistributedForce{0, 20, Frame::follower, {0, 0.004, -0.003}}})},
-      {"fixed, tendons in space", rod(heavy, {Force{40, Frame::fixed, {0.1, 0.2, -0.1}, {0, 0}}, Tendon{{2, 0}, 6, 40},
-                                              Tendon{{-1, 1.5}, 9, 25}, Tendon{{0, -2}, 4, 40}, Gravity{{0, 3, -9.81}}})},
-      {"follower, tendons in space, with shear",
-       rod(strip, {Force{40, Frame::follower, {-0.5, 0.8, 0.6}, {0, 0}}, Tendon{{2, 1}, 9, 40}, Tendon{{0, -2}, 7, 30}})},
+      {"fixed, tendons in space",
+       rod(heavy, {Force{40, Frame::fixed, {0.1, 0.2, -0.1}, {0, 0}}, Tendon{{2, 0}, 6, 40}, Tendon{{-1, 1.5}, 9, 25},
+                   Tendon{{0, -2}, 4, 40}, Gravity{{0, 3, -9.81}}})},
+      {"follower, tendons in space, with shear", rod(strip, {Force{40, Frame::follower, {-0.5, 0.8, 0.6}, {0, 0}},
+                                                             Tendon{{2, 1}, 9, 40}, Tendon{{0, -2}, 7, 30}})},
       {"fixed, tendons in space, with shear",
        rod(strip, {Force{30, Frame::fixed, {-0.2, 0.3, 0.2}, {1, 1}}, Tendon{{2, 1}, 9, 40}, Gravity{{0, 3, -9.81}}})},
       {"fixed, in the plane with tendons and shear",
@@ -177,8 +178,7 @@ TEST(Lanes, EveryUnitGivesWhatASolverGives) {
   }
 }
 
-// Measured: 1.1e-13, and 2.3e-5 of the estimates; 2698 of 4704 rods in lanes, the others have tendons in space or may
-// buckle.
+// Measured: 2.7e-14, and 7.7e-6 of the estimates; 4531 of 4704 rods in lanes, the others may buckle.
 TEST(Lanes, RandomScenes) {
   const LaneUnit& unit = fam::lane_units().front();
   studies::RandomSceneLimits limits;
@@ -196,7 +196,7 @@ TEST(Lanes, RandomScenes) {
     in_lanes += solved_in_lanes(unit, scene, rods, options);
     rows += 16;
   }
-  printf("%d of %d\n",in_lanes,rows); EXPECT_GT(in_lanes, rows / 2);
+  EXPECT_GT(in_lanes, rows * 9 / 10);
 }
 
 // With arcs chosen for the tolerance: the same statuses, and tips within what Newton's method leaves of it.
@@ -293,8 +293,39 @@ TEST(Lanes, LeaveTendonsThatCollapse) {
   }
 }
 
-TEST(Lanes, NeitherOrderNorThreadsNorCompanyMatter) {
-  const scene::Scene scene = rods_of_every_kind()[7].second;
+// A tendon at y bends the rod alone to u = T y / EI and its own tangent to 1 - u y; with EI = 100 and y = 2 that is 2/3
+// at T = 25/3.
+TEST(Lanes, LeaveTendonsFarFromStraight) {
+  const scene::Scene scene = support::uniform_rod(
+      10, support::slender(100, 80), {scene::Tendon{{2, 0}, 1, 10}, scene::Moment{10, Frame::follower, {1, 0, 0}}});
+  Rods rods(scene, 2, 1);
+  rods.values << 8.25, 1e-3, 8.42, 1e-3;
+  EXPECT_EQ(solved_in_lanes(fam::lane_units().front(), scene, rods, with_arcs(8)), 1);
+  rods.values << 8.42, 1e-3, 8.42, 1e-3;
+  EXPECT_EQ(solved_in_lanes(fam::lane_units().front(), scene, rods, with_arcs(8)), 0);
+}
+
+// What tendons turn and strain the rod by counts where a fixed load may leave a second equilibrium: at most 2 rad by
+// T y L / GJ, and 0.1 by T / EA.
+TEST(Lanes, LeaveTendonsThatBendTooFar) {
+  const auto in_lanes = [](const scene::Stiffness& stiffness, const scene::Load& load,
+                           const Eigen::RowVector2d& values) {
+    const scene::Scene scene = support::uniform_rod(10, stiffness, {scene::Tendon{{1, 0}, 1, 10}, load});
+    Rods rods(scene, 1, 1);
+    rods.values = values;
+    return solved_in_lanes(fam::lane_units().front(), scene, rods, with_arcs(8)) == 1;
+  };
+  const scene::Moment moment{10, Frame::fixed, {1, 0, 0}};
+  EXPECT_TRUE(in_lanes(support::slender(100, 80), moment, {15.9, 1e-6}));
+  EXPECT_FALSE(in_lanes(support::slender(100, 80), moment, {16.1, 1e-6}));
+  scene::Stiffness soft = support::slender(1000, 800);
+  soft.axial_N = 100;
+  const scene::Force force{10, Frame::fixed, {0, 1, 0}, {0, 0}};
+  EXPECT_TRUE(in_lanes(soft, force, {9.9, 1e-6}));
+  EXPECT_FALSE(in_lanes(soft, force, {10.1, 1e-6}));
+}
+
+void expect_neither_order_nor_threads_nor_company_matter(const scene::Scene& scene) {
   Rods rods(scene, 1300, 11);
   fam::Options options = with_arcs(6);
   const fam::BatchResult one = fam::solve_batch(scene, rods.columns, rods.values, options);
@@ -310,6 +341,10 @@ TEST(Lanes, NeitherOrderNorThreadsNorCompanyMatter) {
   EXPECT_EQ(fam::solve_batch(scene, rods.columns, reversed, options).position_mm, one.position_mm.colwise().reverse());
   EXPECT_EQ(fam::solve_batch(scene, rods.columns, rods.values.middleRows(700, 3), options).position_mm,
             one.position_mm.middleRows(700, 3));
+}
+TEST(Lanes, NeitherOrderNorThreadsNorCompanyMatter) {
+  const auto rods = rods_of_every_kind();
+  for (const std::size_t kind : {7, 10}) expect_neither_order_nor_threads_nor_company_matter(rods[kind].second);
 }
 
 // sin t / t and its kin up to 2 rad, against the scalar ones.

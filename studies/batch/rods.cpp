@@ -29,7 +29,8 @@ std::span<const BatchCase> batch_cases() {
   constexpr scene::RodModel kirchhoff = scene::RodModel::kirchhoff, reissner = scene::RodModel::reissner;
   using Columns = std::vector<fam::BatchColumn>;
   const Columns in_plane = {{0, 1}, {1, 2}}, force_y = {{0, 1}}, of_finger = {{0, 0}, {1, 0}, {2, 0}, {2, 1}},
-                in_space = {{0, 0}, {0, 1}, {0, 2}, {1, 0}, {1, 1}, {1, 2}}, of_catheter = {{1, 0}, {2, 0}, {3, 1}};
+                in_space = {{0, 0}, {0, 1}, {0, 2}, {1, 0}, {1, 1}, {1, 2}}, of_catheter = {{1, 0}, {2, 0}, {3, 1}},
+                of_arm = {{0, 0}, {1, 0}, {2, 0}, {3, 2}};
   static const BatchCase cases[] = {
       {"P4_follower", "plane, follower loads (P4)", "study1/P4_follower", reissner, 1, 1e-3, in_plane},
       {"P2_fixed", "plane, fixed force (P2)", "study1/P2_fixed", kirchhoff, 1, 2e-4, force_y},
@@ -38,6 +39,7 @@ std::span<const BatchCase> batch_cases() {
       {"S4_fixed", "space, fixed loads (S4)", "study1/S4_fixed", reissner, 1, 1e-3, in_space},
       {"S4_fixed_twice", "space, twice these loads", "study1/S4_fixed", reissner, 2, 1e-3, in_space},
       {"catheter", "space, catheter with tendons", "stream/catheter", kirchhoff, 1, 1e-3, of_catheter},
+      {"arm", "space, arm of three sections", "robots/tendon_arm_three_sections", kirchhoff, 1, 1e-2, of_arm},
   };
   return cases;
 }
