@@ -34,6 +34,7 @@ struct StreamData {
 std::string stream_accuracy_csv(const StreamData& data);
 std::string stream_latency_csv(const StreamData& data);
 std::string stream_latency_picture(const StreamData& data);
-std::map<std::string, std::string> stream_pages(const StreamData& data, const std::filesystem::path& page_md);
+std::map<std::string, std::string> stream_pages(const StreamData& data, const StreamData& of_tube,
+                                                const std::filesystem::path& page_md);
 
 }  // namespace studies

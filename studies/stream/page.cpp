@@ -111,9 +111,12 @@ std::string stream_latency_picture(const StreamData& data) {
   return svg.str();
 }
 
-std::map<std::string, std::string> stream_pages(const StreamData& data, const std::filesystem::path& page_md) {
+std::map<std::string, std::string> stream_pages(const StreamData& data, const StreamData& of_tube,
+                                                const std::filesystem::path& page_md) {
   Page page;
-  const bool all_right = data.not_converged == 0 && data.largest_error_mm() <= data.tolerance_mm;
+  const auto is_right = [](const StreamData& d) {
+    return d.not_converged == 0 && d.largest_error_mm() <= d.tolerance_mm;
+  };
   for (const auto& [name, share] : shares) page.set_time(name, time_text(latency_us(data, share)));
   page.set_time("solves", std::to_string(data.latency_us.size()));
   page.set_time("machine", machine_line());
@@ -121,9 +124,13 @@ std::map<std::string, std::string> stream_pages(const StreamData& data, const st
   page.set("tolerance", fmt::format("{:g}", data.tolerance_mm));
   page.set("samples", std::to_string(data.samples.size()));
   page.set("error", error_for_reader(data.largest_error_mm()));
-  page.check("all_right", all_right);
-  page.check("slopes", data.without_slopes == 0);
-  page.check("no_allocation", data.allocations == 0);
+  page.set_time("tube_median", time_text(latency_us(of_tube, 0.5)));
+  page.set_time("tube_p99", time_text(latency_us(of_tube, 0.99)));
+  page.set("tube_tolerance", fmt::format("{:g}", of_tube.tolerance_mm));
+  page.set("tube_error", error_for_reader(of_tube.largest_error_mm()));
+  page.check("all_right", is_right(data) && is_right(of_tube));
+  page.check("slopes", data.without_slopes == 0 && of_tube.without_slopes == 0);
+  page.check("no_allocation", data.allocations == 0 && of_tube.allocations == 0);
   const std::string answer = fmt::format(
       "a catheter with gravity, two tendons and a tip force, solved again with its Jacobians: {} in the "
       "median, {} at worst; {} judged solves off by at most {} mm",
