@@ -103,7 +103,7 @@ class Rods {
   // Arcs short enough for the law's series, and of boundary values one equilibrium (fam/shooting.h).
   Mask is_within_bounds() const {
     P force(0), moment(0), convexity(0), force_beyond(0), by_moments(0), turn(0), strain(0), longest(0);
-    P arms(0), arms_turn(0);
+    P arms(0), arms_turn(0), moment_trace(0), moment_squares(0);
     for (std::size_t i = rods_.spans.size(); i-- > 0;) {
       const LaneSpan& span = rods_.spans[i];
       const P* n = numbers(i);
@@ -115,12 +115,17 @@ class Rods {
       arms += sqrt(squares);
       const P on_arc = norm(n + at::distributed_follower) + norm(n + at::distributed_fixed);
       const P h(span.arc_length_mm), arcs(span.arcs);
-      for (int arc = 0; arc < (span.distributed ? span.arcs : 1); ++arc) {
+      const bool whole = rods_.march && !span.distributed;
+      for (int arc = 0; arc < (whole ? 1 : span.arcs); ++arc) {
         force += on_arc;
-        const double cell_mm = span.arc_length_mm * (span.distributed ? 1 : span.arcs);
-        const double before_mm = span.distributed ? span.arc_length_mm * (span.arcs - 1 - arc) : 0;
+        const double cell_mm = span.arc_length_mm * (whole ? span.arcs : 1);
+        const double before_mm = whole ? 0 : span.arc_length_mm * (span.arcs - 1 - arc);
         const double to_clamp = span.compliance_to_clamp_per_Nmm + before_mm / span.buckling_stiffness_Nmm2;
         convexity += convexity_share(force, force_beyond, to_clamp, cell_mm, span.buckling_stiffness_Nmm2);
+        const P by_forces = force_beyond + force * P(cell_mm) + arms;
+        const P square = by_forces * by_forces * P(1 / span.buckling_stiffness_Nmm2);
+        moment_trace += convexity_share(square, moment_squares, to_clamp, cell_mm, span.buckling_stiffness_Nmm2);
+        moment_squares += square * P(cell_mm);
         force_beyond += force * P(cell_mm);
       }
       if (D == 3) by_moments += arcs * h * moment * P(span.spin_rate_per_Nmm2);
@@ -137,8 +142,10 @@ class Rods {
     Mask within = longest <= P(rods_.longest_load_length * rods_.longest_load_length);
     if (rods_.march) return within;
     const P unique_length = sqrt(sqrt(P(6) * convexity)) + by_moments;
-    within &= unique_length * unique_length <= P(unique_length_squared) * (P(1) - arms_turn);
-    if (D == 3) within &= turn <= P(unique_turn_rad);
+    Mask one = unique_length * unique_length <= P(unique_length_squared) * (P(1) - arms_turn);
+    if (D == 3) one &= turn <= P(unique_turn_rad);
+    if (D == 3 && rods_.conservative) one |= sqrt(convexity) + sqrt(sqrt(moment_trace)) + arms_turn < P(1);
+    within &= one;
     if (with_shear) within &= strain <= P(unique_strain);
     return within;
   }
@@ -162,8 +169,10 @@ class Rods {
     tip_SB = matrix_at<D>(numbers);
     if constexpr (with_tendons) {
       tip_SB.setIdentity();
-      for (std::size_t i = 0; i < rods_.spans.size(); ++i)
-        tip_SB = turned(tip_SB, P(rods_.spans[i].arcs) * turn_at<D>(this->numbers(i) + at::rest_rotation));
+      for (std::size_t i = 0; i < rods_.spans.size(); ++i) {
+        const Angular<P, D> turn = turn_at<D>(this->numbers(i) + at::rest_rotation);
+        for (int arc = 0; arc < rods_.spans[i].arcs; ++arc) tip_SB = turned(tip_SB, turn);
+      }
     }
     if constexpr (D == 3) inverse = -tip_SB;
     else inverse(0, 0) = P(-1);

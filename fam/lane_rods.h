@@ -31,7 +31,7 @@ struct LaneSpan {
   int arcs;
   bool distributed;
   double arc_length_mm;
-  double angular_compliance[3], linear_compliance[3];  // times h; 0: does not give way
+  double angular_compliance[3], linear_compliance[3];        // times h; 0: does not give way
   double numbers[lane_number::tension + most_lane_tendons];  // with every value of the columns 0
   double least_stiffness_Nmm2, buckling_stiffness_Nmm2, spin_rate_per_Nmm2, linear_compliance_per_N;  // load_length.h
   double compliance_to_clamp_per_Nmm;  // int ds / buckling stiffness
@@ -49,7 +49,7 @@ struct LaneRods {
   std::span<const LaneSpan> spans;
   std::span<const LaneTerm> terms;
   int arc_count, columns, numbers;  // numbers: of a span
-  bool planar, march, reissner, round;
+  bool planar, march, reissner, round, conservative;
   double length_mm;
   double rotation_BP[9], rest_tip_rotation_SB[9];  // by rows
   bool estimate;

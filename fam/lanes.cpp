@@ -114,6 +114,7 @@ LaneProblem::LaneProblem(const Scene& scene, std::span<const BatchColumn> column
     choice_.rotation_BP.setIdentity();
     choice_.round = scene::is_round(given_);
   }
+  rods_.conservative = scene::is_conservative(given_);
   for (const Span& span : spans_of(scene_)) {
     tendons_.push_back(span.tendons);
     most_tendons_ = std::max(most_tendons_, static_cast<int>(span.tendons.size()));

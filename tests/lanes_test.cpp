@@ -153,6 +153,8 @@ std::vector<std::pair<std::string, scene::Scene>> rods_of_every_kind() {
       {"fixed, tendons in space",
        rod(heavy, {Force{40, Frame::fixed, {0.1, 0.2, -0.1}, {0, 0}}, Tendon{{2, 0}, 6, 40}, Tendon{{-1, 1.5}, 9, 25},
                    Tendon{{0, -2}, 4, 40}, Gravity{{0, 3, -9.81}}})},
+      {"fixed, turned by tendons up to 3 rad", rod(round, {Force{40, Frame::fixed, {0.02, 0.03, -0.02}, {0, 0}},
+                                                           Tendon{{4, 0}, 28, 40}, Tendon{{0, -2}, 9, 25}})},
       {"follower, tendons in space, with shear", rod(strip, {Force{40, Frame::follower, {-0.5, 0.8, 0.6}, {0, 0}},
                                                              Tendon{{2, 1}, 9, 40}, Tendon{{0, -2}, 7, 30}})},
       {"fixed, tendons in space, with shear",
@@ -308,9 +310,9 @@ TEST(Lanes, LeaveTendonsFarFromStraight) {
 // What tendons turn and strain the rod by counts where a fixed load may leave a second equilibrium: at most 2 rad by
 // T y L / GJ, and 0.1 by T / EA.
 TEST(Lanes, LeaveTendonsThatBendTooFar) {
-  const auto in_lanes = [](const scene::Stiffness& stiffness, const scene::Load& load,
-                           const Eigen::RowVector2d& values) {
-    const scene::Scene scene = support::uniform_rod(10, stiffness, {scene::Tendon{{1, 0}, 1, 10}, load});
+  const auto in_lanes = [](const scene::Stiffness& stiffness, const scene::Load& load, const Eigen::RowVector2d& values,
+                           double y_mm = 1) {
+    const scene::Scene scene = support::uniform_rod(10, stiffness, {scene::Tendon{{y_mm, 0}, 1, 10}, load});
     Rods rods(scene, 1, 1);
     rods.values = values;
     return solved_in_lanes(fam::lane_units().front(), scene, rods, with_arcs(8)) == 1;
@@ -318,6 +320,11 @@ TEST(Lanes, LeaveTendonsThatBendTooFar) {
   const scene::Moment moment{10, Frame::fixed, {1, 0, 0}};
   EXPECT_TRUE(in_lanes(support::slender(100, 80), moment, {15.9, 1e-6}));
   EXPECT_FALSE(in_lanes(support::slender(100, 80), moment, {16.1, 1e-6}));
+  // A force has an energy, which is convex, whatever they turn, while F L^2 / GJ (6^(-1/2) + 252^(-1/4)) < 1
+  // (load_length.h): F = 1.214, a little less by the largest moment of each arc.
+  const scene::Force across{10, Frame::fixed, {0, 0, 1}, {0, 0}};
+  EXPECT_TRUE(in_lanes(support::slender(100, 80), across, {300, 1}, 0.1));
+  EXPECT_FALSE(in_lanes(support::slender(100, 80), across, {300, 1.22}, 0.1));
   scene::Stiffness soft = support::slender(1000, 800);
   soft.axial_N = 100;
   const scene::Force force{10, Frame::fixed, {0, 1, 0}, {0, 0}};
