@@ -295,6 +295,20 @@ TEST(Lanes, LeaveTendonsThatCollapse) {
   }
 }
 
+// As many places of tendons as lanes hold, and one more; two tendons at one place are one.
+TEST(Lanes, LeaveMoreTendonsThanTheyHold) {
+  for (const int places : {12, 13}) {
+    std::vector<scene::Load> loads{scene::Force{10, Frame::fixed, {0.01, 0.02, 0.03}, {0, 0}}};
+    for (int i = 0; i < places + 1; ++i)
+      loads.push_back(scene::Tendon{{2.0 - 0.1 * (i % places), 0.1 * (i % places)}, 0.1, 10});
+    const scene::Scene scene = support::uniform_rod(10, support::slender(100, 80), loads);
+    const Rods rods(scene, 9, 5);
+    const LaneUnit& unit = fam::lane_units().front();
+    EXPECT_EQ(solved_in_lanes(unit, scene, rods, with_arcs(6)), places == 12 ? 9 : 0);
+    EXPECT_LT(from_solver(solved_by(unit, scene, rods, with_arcs(6)), scene, rods, with_arcs(6)).tip, 1e-12);
+  }
+}
+
 // A tendon at y bends the rod alone to u = T y / EI and its own tangent to 1 - u y; with EI = 100 and y = 2 that is 2/3
 // at T = 25/3.
 TEST(Lanes, LeaveTendonsFarFromStraight) {

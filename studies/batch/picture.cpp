@@ -17,7 +17,7 @@ class RatesPicture {
       : data_(data),
         svg_(880, foot_of(data.size()) + 50, "Rods a second on one core",
              "A dot for each way to solve the rows of a case, on a logarithmic axis of rods a second, from left to "
-             "right: the farther right the faster. Eight groups, one for each case; in each from above: arcs given, "
+             "right: the farther right the faster. A group for each case; in each from above: arcs given, "
              "with an error estimate, arcs chosen, and a Solver that takes one row after the other. Look at how far "
              "the last lies behind the first.",
              "medians; from above in each group: as named in the first") {

@@ -78,8 +78,8 @@ std::string stream_latency_csv(const StreamData& data) {
     head.push_back(fmt::format("{}: {} us", name, significant(latency_us(data, share), 3)));
   }
   head.push_back(
-      "Inputs set, solve, compliance and by_load of both tendons and the force at the tip. The last bin and "
-      "the first hold what lies beyond.");
+      "Inputs set, solve, and at the tip compliance and by_load of all tendons and the force. The last bin and the "
+      "first hold what lies beyond.");
   return table.csv(head);
 }
 

@@ -149,6 +149,7 @@ void stream(const StudyOptions& options) {
   std::map<std::string, std::string> files = {{"accuracy.csv", stream_accuracy_csv(data)},
                                               {"accuracy_tube.csv", stream_accuracy_csv(of_tube)},
                                               {"timing_latency.csv", stream_latency_csv(data)},
+                                              {"timing_latency_tube.csv", stream_latency_csv(of_tube)},
                                               {"timing_latency.svg", stream_latency_picture(data)}};
   files.merge(stream_pages(data, of_tube, options.pages / "stream" / "page.md"));
   write_results(options.output / "stream", "fam-studies stream", files);
