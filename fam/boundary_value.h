@@ -59,6 +59,7 @@ class BasicBoundaryValue {
   int load_steps() const { return growth_.load_steps(); }
   bool way_was_smooth() const { return growth_.was_smooth(); }
   double expected_turn_rad() const { return shooting_.expected_turn_rad(); }
+  void limit_newton_steps(int most) { growth_.limit_newton_steps(most); }
   int newton_steps() const { return shooting_.newton_steps(); }  // of the last run, and of the one that it started from
   double load_factor() const { return shooting_.rod().load_factor(); }  // reached
   std::string message() const { return why_ ? why_ : growth_.message(); }

@@ -118,6 +118,10 @@ int Engine::load_steps() const {
 int Engine::newton_steps() const {
   return visit([](const auto& s) { return of_boundary_value(s, [](const auto& p) { return p.newton_steps(); }); });
 }
+void Engine::limit_newton_steps(int most) {
+  planar_boundary_value_.limit_newton_steps(most);
+  boundary_value_.limit_newton_steps(most);
+}
 bool Engine::has_one_solution() const {
   return is_march_ ||
          visit([](const auto& s) { return of_boundary_value(s, [](const auto& p) { return p.one_equilibrium(); }); });

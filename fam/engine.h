@@ -54,6 +54,7 @@ class Engine {
   double load_factor() const;  // that a boundary value problem has reached
   int load_steps() const;
   int newton_steps() const;
+  void limit_newton_steps(int most);  // that loads take to grow, from now on
   bool has_one_solution() const;     // a march, or no other equilibrium
   bool way_was_smooth() const;       // no critical point was near as the load grew
   double expected_turn_rad() const;  // of a segment's end, in the step that Newton left out; 0: a march

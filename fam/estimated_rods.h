@@ -31,7 +31,8 @@ class EstimatedRods {
   // are lost, and with them their solutions.
   bool reserve();
 
-  // A solver that reserves too few arcs is made anew.
+  // A solver that reserves too few arcs is made anew. From a last solution work_limit where the way there is long
+  // (most_way_newton_steps).
   bool solve(std::size_t scene, Solver::Start start);
   // To the solution before the last one.
   bool go_back(std::size_t scene) { return solvers_[scene]->go_back(); }

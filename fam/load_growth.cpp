@@ -209,7 +209,7 @@ bool LoadGrowth<D>::stays_on_branch(Shooting<D>& shooting, double step) {
 template <int D>
 bool LoadGrowth<D>::gives_up(const Shooting<D>& shooting, double step) {
   const long long arcs = shooting.rod().arc_count();
-  const bool exhausted = shooting.newton_steps() > most_newton_steps ||
+  const bool exhausted = shooting.newton_steps() > most_newton_steps_ ||
                          shooting.newton_steps() * arcs > std::max(most_arcs_marched, most_passes * arcs);
   const double smallest = smallest_load_step * std::max(way_.load_factor, way_.first_step);
   if (!exhausted && step >= smallest) return false;

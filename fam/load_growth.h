@@ -19,6 +19,7 @@
 // snap-through ends in load_step_too_small (fam/limit.h tells more).
 #pragma once
 
+#include "fam/options.h"
 #include "fam/shooting.h"
 #include "fam/stability.h"
 
@@ -31,10 +32,9 @@
 
 namespace fam {
 
-// Growing the load ends in work_limit after this many Newton steps, or arcs marched, or most_passes times the rod's
-// arcs, if that is more. Nearly all random scenes that are solved need up to 900 steps and 250 000 arcs; fam/limit.h
-// goes on.
-constexpr int most_newton_steps = 3000;
+// Growing the load ends in work_limit after most_newton_steps (options.h), or this many arcs marched, or most_passes
+// times the rod's arcs, if that is more. Nearly all random scenes that are solved need up to 900 steps and 250 000 arcs;
+// fam/limit.h goes on.
 constexpr long long most_arcs_marched = 300'000;
 
 template <int D>
@@ -43,6 +43,7 @@ class LoadGrowth {
   void reserve(const Room& room);
   // For a rod whose loads are to grow; takes memory where more arcs, segments or spans are asked for than ever before.
   void set(const Shooting<D>& shooting);
+  void limit_newton_steps(int most) { most_newton_steps_ = most; }
 
   // From no load to the full load. converged, load_step_too_small, not_converged, work_limit or tendon_collapsed; where
   // the moments are known converged or arc_not_converged. Where a critical point is near, or was before, it pauses at
@@ -144,6 +145,7 @@ class LoadGrowth {
     double swing_rad = 0;  // of an arc: measured, and the turns of the nodes since then
   } way_;
   bool is_paused_ = false;
+  int most_newton_steps_ = most_newton_steps;
   int conjugate_points_ = 0;  // in space, met where Newton took its last derivatives
   mutable StabilityJudge<D> judge_;
   struct {

@@ -10,6 +10,7 @@ namespace fam {
 
 constexpr int max_arcs = 1'000'000;
 constexpr int most_unreserved_arcs = 65'536;
+constexpr int most_newton_steps = 3000;  // while loads grow (load_growth.h)
 
 struct Options {
   Law law = Law::automatic;                         // automatic: sixth_order

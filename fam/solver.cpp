@@ -110,9 +110,10 @@ Vector3d Solver::Impl::expected_tip_turn_B() {
   return turn_B;
 }
 
-Status Solver::Impl::solve_with_arcs(Attempt& attempt, bool on) {
+Status Solver::Impl::solve_with_arcs(Attempt& attempt, bool on, int newton_steps_at_most) {
   Run& run = attempt.run;
   run.set(attempt.problem, arcs);
+  run.engine.limit_newton_steps(newton_steps_at_most);
   if (!on) {
     run.status = run.engine.run();
   } else {
@@ -137,7 +138,7 @@ Status Solver::Impl::solve_with_arcs(Attempt& attempt, bool on) {
 
 // Where the arcs are too long, or a load is not reached with them, twice as many are tried, until two fail at the same
 // load.
-Solver::Outcome Solver::Impl::solve(Start start) {
+Solver::Outcome Solver::Impl::solve(Start start, int newton_steps_at_most) {
   Attempt& attempt = next();
   has_previous = false;
   const bool on = start == Start::last_solution && solved;
@@ -149,12 +150,14 @@ Solver::Outcome Solver::Impl::solve(Start start) {
   double last_load = -1;
   for (;; last_load = engine.load_factor()) {
     if (std::accumulate(arcs.begin(), arcs.end(), 0LL) > most_arcs) return {last, 0, 0, message_of(last)};
-    last = solve_with_arcs(attempt, on);
+    last = solve_with_arcs(attempt, on, newton_steps_at_most);
     if (last == Status::converged) break;
     const double load = engine.load_factor();  // 0 or 1: not the load is at fault, but the arcs are too long
     const bool stopped_again =
         !engine.is_march() && load > 0 && load < 1 && std::abs(load - last_load) <= same_load * last_load;
-    if (options.arcs > 0 || stopped_again) return {last, engine.load_steps(), engine.newton_steps(), message_of(last)};
+    const bool used_up = engine.newton_steps() > newton_steps_at_most;
+    if (options.arcs > 0 || stopped_again || used_up)
+      return {last, engine.load_steps(), engine.newton_steps(), message_of(last)};
     for (int& count : arcs) count *= 2;
   }
   if (options.arcs == 0 && !refine(attempt)) last = Status::tolerance_not_met;
@@ -204,8 +207,8 @@ const scene::Scene& Solver::scene() const {
   return impl_->scene;
 }
 
-Solver::Outcome Solver::solve(Start start) noexcept {
-  return impl_->solve(start);
+Solver::Outcome Solver::solve(Start start, int newton_steps_at_most) noexcept {
+  return impl_->solve(start, newton_steps_at_most);
 }
 
 bool Solver::go_back() noexcept {

@@ -76,7 +76,9 @@ class Solver {
     const char* message;  // never null; empty when converged
     bool converged() const { return status == scene::Status::converged; }
   };
-  Outcome solve(Start start = Start::last_solution) noexcept;
+  // Ends in work_limit once loads that grow have taken so many Newton steps: a few dozen bound a tick of a stream, which
+  // takes up to five as a rule.
+  Outcome solve(Start start = Start::last_solution, int newton_steps_at_most = most_newton_steps) noexcept;
 
   // The solution before the last one counts as the last again, which becomes the one before; values set stay. False:
   // there is none, or a solve that failed has taken its memory.

@@ -53,8 +53,8 @@ struct Solver::Impl {
   Impl(const scene::Scene& scene, const Options& options);
   void reserve();
   Attempt& next() { return attempts[solved == &attempts[0] ? 1 : 0]; }
-  Outcome solve(Start start);
-  scene::Status solve_with_arcs(Attempt& attempt, bool on);
+  Outcome solve(Start start, int newton_steps_at_most);
+  scene::Status solve_with_arcs(Attempt& attempt, bool on, int newton_steps_at_most);
   Vector3d expected_tip_turn_B();
   void choose_arcs(const Problem& problem);
   bool refine(Attempt& attempt);

@@ -203,12 +203,12 @@ class Solver:
         """(3,), 1/mm: torsion, bending about y, about z."""
     def set_stiffness_Nmm2(self, section: int, value: ArrayLike) -> None:
         """(3,), N mm^2: GJ, EI_y, EI_z."""
-    def solve(self, start: Literal["last", "unloaded"] = "last") -> Outcome:
+    def solve(self, start: Literal["last", "unloaded"] = "last", newton_steps_at_most: int = 3000) -> Outcome:
         """Solves for the values set.
 
         'last': on from the loads solved last, along the straight line between, on their branch; 'unloaded': the
         equilibrium that the rod reaches when all loads grow together from zero. Unless it converges the last solution
-        stays.
+        stays. newton_steps_at_most: while loads grow; more end it in work_limit.
         """
     @property
     def solved(self) -> bool:

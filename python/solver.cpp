@@ -14,25 +14,29 @@ struct Outcome {
   std::string message;
 };
 
+int whole_number(const char* name, py::handle value, int least, int most) {
+  const py::ssize_t number = PyIndex_Check(value.ptr()) ? PyNumber_AsSsize_t(value.ptr(), nullptr) : least - 1;
+  if (number < least || number > most)
+    refuse(name, value, "must be a whole number, " + std::to_string(least) + " to " + std::to_string(most));
+  return static_cast<int>(number);
+}
+
 std::unique_ptr<KeptSolver> make(py::handle scene, py::object tolerance_mm, py::object arcs, py::object law,
                                  py::object model, py::handle reserved_arcs) {
   const scene::Scene read = scene_of(scene);
   fam::Options options = options_of({tolerance_mm, arcs, law, model});
-  const py::ssize_t reserved =
-      PyIndex_Check(reserved_arcs.ptr()) ? PyNumber_AsSsize_t(reserved_arcs.ptr(), nullptr) : 0;
-  if (reserved < 1 || reserved > fam::max_arcs)
-    refuse("reserved_arcs", reserved_arcs, "must be a whole number, 1 to " + std::to_string(fam::max_arcs));
-  options.reserved_arcs = static_cast<int>(reserved);
+  options.reserved_arcs = whole_number("reserved_arcs", reserved_arcs, 1, fam::max_arcs);
   return std::make_unique<KeptSolver>(read, options);
 }
 
-Outcome solve_kept(KeptSolver& kept, py::handle start) {
+Outcome solve_kept(KeptSolver& kept, py::handle start, py::handle newton_steps_at_most) {
   const auto is = [&](const char* name) {
     return PyUnicode_Check(start.ptr()) && PyUnicode_CompareWithASCIIString(start.ptr(), name) == 0;
   };
   if (!is("last") && !is("unloaded")) refuse("start", start, "must be 'last' or 'unloaded'");
   const Solver::Start from = is("last") ? Solver::Start::last_solution : Solver::Start::unloaded;
-  const Solver::Outcome outcome = kept.alone([from](Solver& solver) { return solver.solve(from); });
+  const int most = whole_number("newton_steps_at_most", newton_steps_at_most, 0, fam::most_newton_steps);
+  const Solver::Outcome outcome = kept.alone([=](Solver& solver) { return solver.solve(from, most); });
   return {outcome.status, outcome.load_steps, outcome.newton_steps, outcome.message};
 }
 
@@ -200,10 +204,13 @@ is not there IndexError. One solver only in one thread at a time; others run whi
   solver
       .def(py::init(&make), py::arg("scene"), py::arg("tolerance_mm") = py::none(), py::arg("arcs") = py::none(),
            py::arg("law") = "auto", py::arg("model") = "auto", py::arg("reserved_arcs") = fam::Options().reserved_arcs)
-      .def("solve", &solve_kept, py::arg("start") = "last", R"(solve(start='last') -> Outcome
+      .def("solve", &solve_kept, py::arg("start") = "last",
+           py::arg("newton_steps_at_most") = fam::most_newton_steps,
+           R"(solve(start='last', newton_steps_at_most=3000) -> Outcome
 
 'last': on from the loads solved last, along the straight line between, on their branch; 'unloaded': the equilibrium that
-the rod reaches when all loads grow together from zero. Unless it converges the last solution stays.)")
+the rod reaches when all loads grow together from zero. Unless it converges the last solution stays.
+newton_steps_at_most: while loads grow; more end it in work_limit.)")
       .def_property_readonly(
           "solved", [](KeptSolver& kept) { return kept.use().solved(); }, "bool: there is a solution")
       .def(

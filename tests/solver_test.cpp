@@ -372,6 +372,24 @@ TEST(Solver, StopsAtAFoldAndKeepsItsSolution) {
   EXPECT_NEAR(solver.tip().position_B_mm[1], -bent_mm, 1e-6);
 }
 
+// A bent column whose side force comes to all but the opposite side turns about its axis, past where that force nearly
+// vanishes: a long way.
+TEST(Solver, EndsAfterAsManyNewtonStepsAsItMayTake) {
+  const scene::Scene scene =
+      uniform_rod(40, slender(1500, 1000), {scene::Force{40, Frame::fixed, {-2.3, 0.017, 0.041}}});
+  Solver solver = kept(scene, {});
+  ASSERT_TRUE(solver.solve(Solver::Start::last_solution, 100).converged());
+  const Vector3d held_mm = solver.tip().position_B_mm;
+  solver.set_force_N(0, {-2.9, -0.094, -0.229});
+  const Solver::Outcome outcome = solver.solve(Solver::Start::last_solution, 40);
+  EXPECT_EQ(outcome.status, Status::work_limit) << outcome.message;
+  EXPECT_GT(outcome.newton_steps, 40);
+  EXPECT_LE(outcome.newton_steps, 60);  // a load step takes up to max_newton_steps = 20
+  EXPECT_EQ(solver.tip().position_B_mm, held_mm);
+  EXPECT_GT(solver.solve().newton_steps, 100);
+  EXPECT_LT((solver.tip().position_B_mm - kept_tip(solver.scene(), {}).position_B_mm).norm(), 1e-3 * 40);
+}
+
 // A refused value leaves all as it was, and is told as the scene format tells it.
 TEST(Solver, RefusesWrongValues) {
   Solver solver = kept(robot(), {});

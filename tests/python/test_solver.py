@@ -147,6 +147,9 @@ def test_off_the_rod_and_out_of_range(rod):
         solver.by_place(TENDON, 1)
     with pytest.raises(fam.SceneError, match="start = 'cold': must be 'last' or 'unloaded'"):
         solver.solve("cold")
+    for wrong in -1, 3001, 2.5, "few", None:
+        with pytest.raises(fam.SceneError, match="newton_steps_at_most = .*: must be a whole number, 0 to 3000"):
+            solver.solve("last", newton_steps_at_most=wrong)
     for wrong in [("load", 0, "w"), ("load", TENDON, "x"), ("load", FORCE, "tension"), ("load", 0), ("place", 0, "x"),
                   ("stiffness", 0, "x"), ("rest_curvature", 0, 1), "load", ("place", TENDON), ("load", 0.5, "x")]:
         with pytest.raises(ValueError):
@@ -155,6 +158,18 @@ def test_off_the_rod_and_out_of_range(rod):
         solver.jacobian([1], [("load", 5, "x")])
     with pytest.raises(ValueError):
         solver.jacobian([[1]], [("load", 0, "x")])
+
+
+def test_ends_after_as_many_newton_steps_as_it_may_take():
+    """A bent column turns half around its axis: a long way."""
+    column = fam.Solver({"rod": {"sections": [{"length_mm": LENGTH_MM, "stiffness": {"bending_Nmm2": 1500,
+                                                                                      "torsion_Nmm2": 1000}}]},
+                         "loads": [{"kind": "force", "at": "tip", "frame": "fixed", "value_N": [-2.3, 0.017, 0.041]}]})
+    assert column.solve().converged
+    column.set_force_N(0, [-2.9, -0.094, -0.229])
+    assert column.solve(newton_steps_at_most=40).status == "work_limit"
+    outcome = column.solve()
+    assert outcome.converged and outcome.newton_steps > 100
 
 
 def test_what_the_law_cannot_solve(rod):
