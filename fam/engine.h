@@ -55,9 +55,9 @@ class Engine {
   int load_steps() const;
   int newton_steps() const;
   void limit_newton_steps(int most);  // that loads take to grow, from now on
-  bool has_one_solution() const;     // a march, or no other equilibrium
-  bool way_was_smooth() const;       // no critical point was near as the load grew
-  double expected_turn_rad() const;  // of a segment's end, in the step that Newton left out; 0: a march
+  bool has_one_solution() const;      // a march, or no other equilibrium
+  bool way_was_smooth() const;        // no critical point was near as the load grew
+  double expected_turn_rad() const;   // of a segment's end, in the step that Newton left out; 0: a march
   std::string failure_message(scene::Status status) const;
 
  private:

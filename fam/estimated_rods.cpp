@@ -21,8 +21,9 @@ constexpr double least_place_over_L = 1e-9;  // at the clamp itself no load can 
 constexpr double least_factor = 0.01;        // of a stiffness
 constexpr int first_reserved_arcs = 32;      // memory for 1024 costs as much as a solve
 // Farther than that from the last solution an estimate's slopes tell nothing: beyond a fold, or half around the rod's
-// axis. Of 53 662 solves of the study of sensing 51 576 take up to 5 and 285 up to 100; 1801 took up to 552, and 85 % of
-// the time. With 20, 40 and 80 in its place one trial of 200 near the column's load ends in another status.
+// axis. Of 53 662 solves of the study of sensing 51 576 take up to 5 and 285 up to 100; 1801 took up to 552, and 85 %
+// of the time. With 20, 40 and 80 in its place one trial of 200 near the column's load ends in another status; but 40
+// turn down what a stream that jumps by a third needs.
 constexpr int most_way_newton_steps = 100;
 
 // How far the rod is off, as a whole, where it is off by this measurement's deviation.

@@ -41,8 +41,8 @@ constexpr double good_share = 0.9;           // of the decrease that a step prom
 // forces and contacts: 20 are left more than 1e-4 deviations off, none more than 1.4e-3; with a rate from longer steps
 // 0.09.
 constexpr double longest_reach = 10, sure_rate = 3;
-constexpr double most_repeated = 0.9;  // of a step that was turned down: a longer one would be, too
-constexpr int more_starts = 12;  // where places are unknown and the first minimum does not fit
+constexpr double least_change = 0.1;  // of a step, to one turned down: else it would be, too
+constexpr int more_starts = 12;       // where places are unknown and the first minimum does not fit
 
 // The digits of a number mirrored at the point: 1/2, 1/4, 3/4, ... of base 2 (Halton, Numer. Math. 2, 1960).
 double radical_inverse(int number, int base) {
@@ -58,7 +58,7 @@ struct Estimator::Impl {
   Estimate result;
 
   // Of Gauss-Newton: x, where the rods stand, and rows at x and at the trial.
-  VectorXd x, stand, start, trial, moved, gradient, scaling, along, residual, trial_residual;
+  VectorXd x, stand, start, trial, turned_down, moved, gradient, scaling, along, residual, trial_residual;
   MatrixXd slopes, information, damped, vectors;
   Eigen::LDLT<MatrixXd> factors, damped_factors;  // of the information, damped
   Posterior posterior;
@@ -74,7 +74,8 @@ struct Estimator::Impl {
   }
 
   void take_memory(Index count) {
-    for (VectorXd* v : {&x, &stand, &start, &trial, &moved, &gradient, &scaling, &along, &result.mean, &result.sd})
+    for (VectorXd* v :
+         {&x, &stand, &start, &trial, &turned_down, &moved, &gradient, &scaling, &along, &result.mean, &result.sd})
       v->resize(count);
     for (VectorXd* v : {&residual, &trial_residual}) v->resize(rows.count());
     slopes.resize(rows.count(), count);
@@ -162,11 +163,11 @@ struct Estimator::Impl {
   // To a trial that brings chi-squared down; what that step promised, or nothing where there is none. Each starts from
   // x: what was turned down may lie on another branch.
   std::optional<double> descend(double& damping, double chi_squared, double possible) {
-    for (double turned_down = HUGE_VAL; damping <= most_damping; damping *= 10) {
+    for (turned_down = x; damping <= most_damping; damping *= 10) {
       const double promised = step(damping);
       if (trial == x) break;
-      if (moved.norm() > most_repeated * turned_down) continue;
-      turned_down = moved.norm();
+      if ((trial - turned_down).norm() < least_change * moved.norm()) continue;
+      turned_down = trial;
       const bool solved = rows.solve(trial, solved_at_x ? Start::last_solution : Start::unloaded);
       if (solved && rows.put_residual(trial, trial_residual) && trial_residual.squaredNorm() < chi_squared)
         return promised;
