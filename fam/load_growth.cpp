@@ -212,11 +212,11 @@ bool LoadGrowth<D>::gives_up(const Shooting<D>& shooting, double step) {
   const bool exhausted = shooting.newton_steps() > most_newton_steps_ ||
                          shooting.newton_steps() * arcs > std::max(most_arcs_marched, most_passes * arcs);
   const double smallest = smallest_load_step * std::max(way_.load_factor, way_.first_step);
-  if (!exhausted && step >= smallest) return false;
+  if (!exhausted && !nears_fold() && step >= smallest) return false;
   end_.status = shooting.rod().tendon_collapsed() ? scene::Status::tendon_collapsed
                 : exhausted                       ? scene::Status::work_limit
                                                   : scene::Status::load_step_too_small;
-  end_.smallest_step = smallest;
+  end_.smallest_step = nears_fold() ? 0 : smallest;
   end_.newton_steps = exhausted ? shooting.newton_steps() : 0;
   return true;
 }
@@ -228,7 +228,8 @@ std::string LoadGrowth<D>::message() const {
   if (end_.status == scene::Status::not_converged) return "Newton did not converge at the loads it starts from";
   std::ostringstream text;
   if (end_.newton_steps > 0) text << "work limit: " << end_.newton_steps << " Newton steps and only ";
-  else text << "the load step fell below " << end_.smallest_step << " at ";
+  else if (end_.smallest_step > 0) text << "the load step fell below " << end_.smallest_step << " at ";
+  else text << "the loads near a fold at ";
   text << 100 * way_.load_factor << " % of the load" << (end_.newton_steps > 0 ? " reached" : "");
   return text.str();
 }
@@ -312,7 +313,7 @@ bool LoadGrowth<D>::ends_beside_rest(Shooting<D>& shooting) {
   return true;
 }
 
-// A fold is where steps lead nowhere and the determinant has all but vanished.
+// A fold is foretold, or where steps lead nowhere and the determinant has all but vanished.
 template <int D>
 scene::Status LoadGrowth<D>::run_on(Shooting<D>& shooting, const Last& last, const Angular<double, D>& tip_turn_B) {
   forget_way();
@@ -328,8 +329,9 @@ scene::Status LoadGrowth<D>::run_on(Shooting<D>& shooting, const Last& last, con
   shooting.set_load(0);
   way_.load_steps = 0;
   end_.status = grow_from(shooting, last, size);
-  const bool fold = end_.status == scene::Status::load_step_too_small && way_.watches_determinant &&
-                    scene::log_fall(way_.start, way_.branch.last()) > -std::log(limit_point_determinant);
+  const bool has_vanished =
+      way_.watches_determinant && scene::log_fall(way_.start, way_.branch.last()) > -std::log(limit_point_determinant);
+  const bool fold = end_.status == scene::Status::load_step_too_small && (has_vanished || nears_fold());
   return end_.status = fold ? scene::Status::limit_point : end_.status;
 }
 

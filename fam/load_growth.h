@@ -16,7 +16,7 @@
 // determinant its sign. Of 30 000 strips two passed them so, and ended unstable. Past a critical point arcs that swing
 // far may lead a rod to another side than it goes to, so that the growth can be paused before they do and go on with
 // more (tolerance.h). So the answer is the equilibrium that the rod reaches when its loads grow together from zero; a
-// snap-through ends in load_step_too_small (fam/limit.h tells more).
+// snap-through ends in load_step_too_small, soon where scene/branch_watch.h foretells its fold (fam/limit.h).
 #pragma once
 
 #include "fam/options.h"
@@ -70,6 +70,8 @@ class LoadGrowth {
   Stability judge(const Shooting<D>& shooting) const {
     return judge_(shooting.rod(), shooting.segments(), shooting.nodes());
   }
+  // Whether the way ends before the full loads, at a fold: the square of the determinant foretells its load.
+  bool nears_fold() const { return way_.watches_determinant && way_.branch.nears_fold_before(1); }
   int load_steps() const { return way_.load_steps; }
   // Whether no critical point was near on the way.
   bool was_smooth() const { return way_.was_smooth; }

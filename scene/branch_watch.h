@@ -27,6 +27,11 @@ class BranchWatch {
   // through none the line through two determinants of about the same size sees no zero, and a step may pass two.
   double longest_bent_step(double from_load_factor) const;
 
+  // Whether the last determinants fell as the root of the way that is left to one load, as before a fold. Before loads
+  // where branches part they fall as the way itself, and where these part by a little only they do so until they rise
+  // again. Only of a load that surely lies before this one.
+  bool nears_fold_before(double load_factor) const;
+
   // The branch goes on here.
   void keep(double load_factor, const Determinant& now);
 
@@ -37,8 +42,16 @@ class BranchWatch {
     double load_factor = 0;
     Determinant determinant;
   };
+  void look_for_fold();
+
   Point last_, before_, earlier_;
   int points_ = 0;
+  // The load where the line through the squares of two determinants meets zero, how far it was ahead then, and how many
+  // times in a row it was foretold so, each from at most half as far.
+  struct {
+    double load_factor = 0, ahead = 0;
+    int times_held = 0;
+  } fold_;
 };
 
 }  // namespace scene

@@ -32,7 +32,7 @@ enum class Status {
   unsupported,          // the method cannot solve this kind of load or section; the message names it
   arc_not_converged,    // FAM: the angle of an arc, or its series, was not found (fam/solve.h)
   tolerance_not_met,    // the error estimate exceeds the tolerance at the largest number of arcs
-  load_step_too_small,  // the load step was halved below the method's smallest
+  load_step_too_small,  // they were halved below the method's smallest, or a fold is foretold
   not_converged,        // an iteration ended above its tolerance; the message gives both
   work_limit,           // the method's bound on load steps, marched arcs or intervals was used up
   limit_point,          // the loads meet a fold on their way, where the rod would snap

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace {
 
@@ -40,6 +41,35 @@ TEST(BranchWatch, SeesNoZeroWhereTheDeterminantBendsAway) {
   scene::BranchWatch watch;
   for (const double load : {0.0, 1.0, 2.0}) watch.keep(load, {-std::log1p(load)});
   EXPECT_EQ(watch.longest_bent_step(2), HUGE_VAL);
+}
+
+scene::BranchWatch watched(const std::vector<double>& ways_left, double exponent) {
+  scene::BranchWatch watch;
+  for (const double left : ways_left) watch.keep(1 - left, {3 + exponent * std::log(left), true});
+  return watch;
+}
+
+// As the root of the way left: a fold. As the way itself: two branches that part, or all but do, where a stable one may
+// go on; as its power 2/3: all but a fold.
+TEST(BranchWatch, TellsAFold) {
+  const std::vector<double> steps = {1, 0.5, 0.3, 0.28, 0.14, 0.12, 0.04, 1e-2, 4e-3};
+  EXPECT_TRUE(watched(steps, 0.5).nears_fold_before(1.01));
+  EXPECT_FALSE(watched(steps, 1).nears_fold_before(1.01));
+  EXPECT_FALSE(watched(steps, 2.0 / 3).nears_fold_before(1.01));
+  EXPECT_FALSE(watched({1, 0.5, 0.24, 0.11, 0.05}, 0.5).nears_fold_before(1.01));  // not yet
+  EXPECT_TRUE(watched({1, 0.5, 0.24, 0.11, 0.05, 0.02}, 0.5).nears_fold_before(1.01));
+  EXPECT_FALSE(watched({1, 0.97, 0.94, 0.91, 0.88, 0.85, 0.82, 0.79}, 1).nears_fold_before(1.01));
+  // One long step to where it all but vanishes says nothing of how it fell.
+  EXPECT_FALSE(watched({1, 0.7, 0.5, 1e-4}, 1).nears_fold_before(1.01));
+  EXPECT_FALSE(watched({1, 0.9, 1e-9}, 0.5).nears_fold_before(1.01));
+
+  // Nor is it one where the way ends before.
+  EXPECT_FALSE(watched(steps, 0.5).nears_fold_before(1));
+  EXPECT_FALSE(watched(steps, 0.5).nears_fold_before(0.999));
+
+  scene::BranchWatch watch = watched(steps, 0.5);
+  watch.keep(1 - 3e-3, {3 + 0.5 * std::log(5e-3), true});  // it rises again
+  EXPECT_FALSE(watch.nears_fold_before(1.01));
 }
 
 // A taut rod's determinant falls as it slackens, which leads to no critical point.
