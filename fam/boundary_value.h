@@ -62,6 +62,7 @@ class BasicBoundaryValue {
   void limit_newton_steps(int most) { growth_.limit_newton_steps(most); }
   int newton_steps() const { return shooting_.newton_steps(); }  // of the last run, and of the one that it started from
   double load_factor() const { return shooting_.rod().load_factor(); }  // reached
+  bool nears_fold() const { return growth_.nears_fold(); }              // there
   std::string message() const { return why_ ? why_ : growth_.message(); }
 
   // Of the equilibrium, a minimum of the energy if it has no conjugate point. Only for fixed forces, gravity and

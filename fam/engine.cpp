@@ -112,6 +112,9 @@ int Engine::arc_count() const {
 double Engine::load_factor() const {
   return visit([](const auto& s) { return of_boundary_value(s, [](const auto& p) { return p.load_factor(); }); });
 }
+bool Engine::nears_fold() const {
+  return visit([](const auto& s) { return of_boundary_value(s, [](const auto& p) { return p.nears_fold(); }); });
+}
 int Engine::load_steps() const {
   return visit([](const auto& s) { return of_boundary_value(s, [](const auto& p) { return p.load_steps(); }); });
 }

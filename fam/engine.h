@@ -52,6 +52,7 @@ class Engine {
   bool is_planar() const { return is_planar_; }
   int arc_count() const;
   double load_factor() const;  // that a boundary value problem has reached
+  bool nears_fold() const;     // there
   int load_steps() const;
   int newton_steps() const;
   void limit_newton_steps(int most);  // that loads take to grow, from now on

@@ -26,6 +26,8 @@ class Problem {
 
   const scene::Scene& scene() const { return scene_; }
   const Options& options() const { return options_; }
+  // Whether the path is followed that loads which cannot grow on take.
+  bool follows_path() const { return options_.locate_limit || options_.after_snap; }
   const Choice& choice() const { return choice_; }
   double tolerance_mm() const { return tolerance_mm_; }
   double length_mm() const { return given_.to.back().end_mm; }

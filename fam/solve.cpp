@@ -55,15 +55,11 @@ std::string refusal(const Problem& problem) {
 namespace {
 
 // Where a load could not grow on, its path tells why.
-Equilibrium after_failure(const Problem& problem, const Run& run) {
-  const double reached = run.engine.load_factor();
+std::optional<Equilibrium> beyond(const Problem& problem, const Run& run) {
   const bool stuck = run.status == Status::load_step_too_small || run.status == Status::work_limit ||
                      run.status == Status::tendon_collapsed;
-  const bool asked = problem.options().locate_limit || problem.options().after_snap;
-  if (stuck && reached > 0 && asked) {
-    if (auto result = beyond_growth(problem.scene(), problem.options())) return *result;
-  }
-  return failure(run);
+  if (!stuck || run.engine.load_factor() <= 0 || !problem.follows_path()) return std::nullopt;
+  return beyond_growth(problem.scene(), problem.options());
 }
 
 // What a solve works in.
@@ -83,7 +79,10 @@ Equilibrium solve_fixed(Workspace& memory) {
   const Problem& problem = memory.problem;
   Run& run = memory.one;
   run.solve(problem, scene::cells_per_span(problem.spans(), problem.options().arcs));
-  if (!run.converged()) return after_failure(problem, run);
+  if (!run.converged()) {
+    const std::optional<Equilibrium> found = beyond(problem, run);
+    return found ? *found : failure(run);
+  }
   const ArcExtent extent = run.extent(problem);
   if (verdict(run.engine, problem.choice().law, extent) == Status::arc_not_converged)
     return too_long_for_series(extent);
@@ -95,9 +94,14 @@ Equilibrium solve_fixed(Workspace& memory) {
 
 Equilibrium solve_by_tolerance(Workspace& memory) {
   const Problem& problem = memory.problem;
-  const Found found = solve_to_tolerance(problem, memory.one, memory.another);
+  Found found = solve_to_tolerance(problem, memory.one, memory.another, problem.follows_path());
+  if (!found.run->converged() && problem.follows_path()) {
+    if (std::optional<Equilibrium> result = beyond(problem, *found.run)) return *result;
+    // A fold of few arcs that the path does not know.
+    if (found.run->engine.nears_fold()) found = solve_to_tolerance(problem, memory.one, memory.another);
+  }
   if (found.status == Status::tolerance_not_met) return tolerance_not_met(problem, *found.run, found.error_mm);
-  if (found.status != Status::converged) return after_failure(problem, *found.run);
+  if (found.status != Status::converged) return failure(*found.run);
   return success(problem, *found.run, found.error_mm,
                  is_stable(problem, *found.run, found.other, *found.other, memory.spare),
                  "fewest arcs found whose estimate meets the tolerance", memory.solution);

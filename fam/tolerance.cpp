@@ -252,7 +252,7 @@ int grow_first(const Problem& problem, std::span<const int> first, Run*& run, Ru
 }  // namespace
 
 // Runs with growing multiples of the first arcs.
-Found solve_to_tolerance(const Problem& problem, Run& one, Run& another) {
+Found solve_to_tolerance(const Problem& problem, Run& one, Run& another, bool fold_ends_it) {
   std::vector<int> first;
   set_first_arcs(problem.spans(), problem.choice().plane.has_value(), first);
   Ladder ladder(problem);
@@ -263,6 +263,7 @@ Found solve_to_tolerance(const Problem& problem, Run& one, Run& another) {
     fine->status = Status::not_converged;  // it may hold another problem's answer
     return {coarse, fine, Status::converged, ladder.error_mm()};
   }
+  if (fold_ends_it && !coarse->converged() && coarse->engine.nears_fold()) return {coarse, fine, coarse->status};
   int times_apart = 0;
   bool apart = false, agree = false;
   for (int multiple = grown, next = 2 * grown; static_cast<double>(next) * count <= max_arcs;) {

@@ -74,6 +74,7 @@ struct Found {
   scene::Status status;
   double error_mm = 0;
 };
-Found solve_to_tolerance(const Problem& problem, Run& first, Run& second);
+// Where a fold ends it, the first arcs that meet one do: for who then follows the path, which finds its own arcs.
+Found solve_to_tolerance(const Problem& problem, Run& first, Run& second, bool fold_ends_it = false);
 
 }  // namespace fam

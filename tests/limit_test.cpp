@@ -2,6 +2,7 @@
 // the numbers.
 #include "exact_reference/solve.h"
 #include "fam/solve.h"
+#include "fam/tolerance.h"
 #include "studies/scenes/random_scene.h"
 #include "support.h"
 
@@ -36,8 +37,8 @@ TEST(Limit, OfColumnsNextToRoundAndStraight) {
   }
 }
 
-// A soft rod whose path, followed in segments of 4 load lengths, leads to another equilibrium under the full load. Limit
-// 1e-6; the exact reference meets the fold at 0.862570.
+// A soft rod whose path, followed in segments of 4 load lengths, leads to another equilibrium under the full load.
+// Limit 1e-6; the exact reference meets the fold at 0.862570.
 TEST(Limit, OfASoftRodIsTheExactReferences) {
   const scene::Scene rod = studies::random_scene(studies::campaign_seed(4710, 1949));
   const Equilibrium snapped = solved(rod, 1e-4), exact = exact_reference::solve(rod, {});
@@ -59,6 +60,23 @@ void expect_exact_tip(const scene::Scene& scene) {
   if (stiffer.converged()) {
     EXPECT_GT((stiffer.tip().position_B_mm - exact.tip().position_B_mm).norm(), 1e-3 * length_mm);
   }
+}
+
+// Who follows the path has no use for a fold with more arcs.
+TEST(Limit, TheFirstArcsThatMeetAFoldEndTheGrowth) {
+  fam::Problem problem;
+  const scene::Scene rod = studies::random_scene(studies::campaign_seed(20260701, 365));
+  fam::Options options;
+  options.tolerance_mm = 1e-4 * scene::length_mm(rod);
+  problem.set(rod, options);
+  fam::Run one, another;
+  const fam::Found first = solve_to_tolerance(problem, one, another, true);
+  EXPECT_EQ(first.status, Status::load_step_too_small);
+  EXPECT_TRUE(first.run->engine.nears_fold());
+  const int arcs = first.run->arc_count();
+  const fam::Found last = solve_to_tolerance(problem, one, another);
+  EXPECT_EQ(last.status, Status::load_step_too_small);
+  EXPECT_LE(2 * arcs, last.run->arc_count());
 }
 
 // Its path, followed by arc length, leads to the full load.
