@@ -1,5 +1,5 @@
 // Runs random scenes in blocks of 500 seeds, each block's outcomes in a file of its own: a run resumes where it was
-// stopped, and several processes share one folder. A scene that takes more than five seconds of processor time is
+// stopped, and several processes share one folder. A scene that takes more than twenty seconds of processor time is
 // stopped and counted as "work limit".
 #pragma once
 
