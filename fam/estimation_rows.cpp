@@ -78,7 +78,7 @@ bool EstimationRows::put_slopes(MatrixXd& slopes) const {
   for (std::size_t i = 0; i < given_.scenes.size(); ++i) {
     for (const scene::Measurement& measurement : given_.scenes[i].measurements) {
       const int count = rows_of(measurement);
-      fam::put_slopes(rods_.solver(i), given_.scenes[i], i, given_.unknowns, measurement,
+      fam::put_slopes(rods_.solver(i), given_.scenes[i], i, given_.unknowns, unit_, measurement,
                       slopes.middleRows(row, count));
       row += count;
     }

@@ -40,6 +40,20 @@ Vector3d strain_at(const Solver& solver, double s_mm) {
 // What the six rows of pose, strain and wrench are by an unknown.
 enum class Of { pose, strain, wrench };
 
+// Of what one unit of an unknown may change, below which a change is round-off. Chosen: no share of a measurement's
+// largest information, 1e-12, asks for less than the square of it.
+constexpr double round_off_share = 1e-14;
+
+// What a rod's pose, strain and wrench change by where it bends by a rad.
+Vector6 natural_size(Of of, const scene::Scene& scene) {
+  const double L_mm = scene::length_mm(scene);
+  const double EI_Nmm2 = scene::stiffness_of(scene.sections.front()).bending_Nmm2.maxCoeff();
+  double shift = L_mm, turn = 1;
+  if (of == Of::strain) shift = 1 / L_mm;
+  if (of == Of::wrench) shift = EI_Nmm2 / (L_mm * L_mm), turn = EI_Nmm2 / L_mm;
+  return (Vector6() << shift, shift, shift, turn, turn, turn).finished();
+}
+
 Matrix63 by_load(const Solver& solver, Of of, std::size_t load, double s_mm) {
   if (of == Of::pose) return solver.by_load(load, s_mm);
   if (of == Of::strain) return solver.strain_by_load(load, s_mm);
@@ -175,13 +189,18 @@ void put_residual(const Solver& solver, const Measurement& measurement, Eigen::R
 }
 
 void put_slopes(const Solver& solver, const scene::MeasuredScene& given, std::size_t scene,
-                const std::vector<Unknown>& unknowns, const Measurement& measurement, Eigen::Ref<MatrixXd> rows) {
+                const std::vector<Unknown>& unknowns, const VectorXd& unit, const Measurement& measurement,
+                Eigen::Ref<MatrixXd> rows) {
   const Projection to = projection_of(solver, measurement);
+  const Vector6 round_off = round_off_share * natural_size(to.of, given.scene);
   Derivatives derivatives(solver, given.scene, to.of, to.s_mm);
   for (std::size_t k = 0; k < unknowns.size(); ++k) {
     if (!is_of_section(unknowns[k]) && unknowns[k].scene != scene) continue;
-    const Vector6 column = to.rows * derivatives.by(unknowns[k]);
-    rows.col(static_cast<Eigen::Index>(k)) = column.head(rows.rows());
+    const auto i = static_cast<Eigen::Index>(k);
+    Vector6 by = derivatives.by(unknowns[k]);
+    by = (by.array().abs() * unit[i] <= round_off.array()).select(0, by);
+    const Vector6 column = to.rows * by;
+    rows.col(i) = column.head(rows.rows());
   }
 }
 

@@ -24,9 +24,10 @@ bool has_slopes_of(const scene::Measurement& a, const scene::Measurement& b);
 void put_residual(const Solver& solver, const scene::Measurement& measurement, Eigen::Ref<Eigen::VectorXd> rows);
 
 // Of these rows by each unknown in the unit of the scene: a column each, left alone where the unknown is a load's of
-// another scene. `given` has the sections before any factor.
+// another scene. `given` has the sections before any factor; `unit`: of the unknowns (unit_of), by which round-off is
+// told and put to zero.
 void put_slopes(const Solver& solver, const scene::MeasuredScene& given, std::size_t scene,
-                const std::vector<scene::Unknown>& unknowns, const scene::Measurement& measurement,
-                Eigen::Ref<Eigen::MatrixXd> rows);
+                const std::vector<scene::Unknown>& unknowns, const Eigen::VectorXd& unit,
+                const scene::Measurement& measurement, Eigen::Ref<Eigen::MatrixXd> rows);
 
 }  // namespace fam

@@ -37,9 +37,9 @@ void Posterior::set(const Eigen::Ref<const MatrixXd>& slopes, const VectorXd& pr
   information_.noalias() = slopes.transpose() * slopes;
   diagonal_ = information_;
   diagonalise(diagonal_, vectors_);
-  const double largest = std::max(diagonal_.diagonal().maxCoeff(), std::numeric_limits<double>::min());
-  for (Index k = 0; k < count; ++k)
-    width_[k] = std::isnan(prior_sd[k]) ? std::sqrt(least / (observed_information * largest)) : prior_sd[k];
+  const double largest = diagonal_.diagonal().maxCoeff();
+  const double widest = largest > 0 ? std::sqrt(least / (observed_information * largest)) : 1;
+  for (Index k = 0; k < count; ++k) width_[k] = std::isnan(prior_sd[k]) ? widest : prior_sd[k];
   const bool as_wide = width_.minCoeff() == width_.maxCoeff();
   const auto& in_widths = as_wide ? diagonal_ : information_;
   information_ = width_.asDiagonal() * in_widths * width_.asDiagonal();
