@@ -2,6 +2,8 @@
 
 #include "fam/path_walk.h"
 
+#include <algorithm>
+
 namespace fam {
 namespace {
 
@@ -16,7 +18,11 @@ PathWalk::Settings settings_for(const scene::PathRequest& request) {
   settings.range = {low, high, high - low};
   settings.from = request.from;
   settings.to = request.to;
-  settings.stops = request.stop_at;
+  for (const double stop : request.stop_at) {
+    const bool is_new = std::find(settings.stops.begin(), settings.stops.end(), stop) == settings.stops.end();
+    if (is_new && stop != request.to)
+      settings.stops.push_back(stop);  // a path ends there, and on other branches goes on
+  }
   settings.branches = request.branches;
   settings.largest_step = request.largest_step.value_or((high - low) / fewest_steps);
   settings.most_points = most_points;

@@ -102,6 +102,17 @@ bool PathWalk::hold_on_more_arcs(PathPlace& from, const std::vector<Event>& even
   return hold;
 }
 
+// Whether the rod is within the tolerance at the parameters that the path stops at, and not only near those; else `from`
+// gets more arcs.
+bool PathWalk::stops_are_accurate(PathPlace& from, const std::vector<Event>& events) {
+  for (const Event& event : events) {
+    const bool is_stop = event.kind == Kind::regular || event.kind == Kind::end;
+    if (is_stop && !stepper_.is_accurate(event.place) && stepper_.may_double_for_critical_points())
+      return !stepper_.refine_for(event.place, from);
+  }
+  return true;
+}
+
 void PathWalk::add_turning_points(const PathPlace& from, const PathPlace& next, std::vector<Event>& events) {
   const auto add_located = [&](Kind kind, int multiplicity, const Test& test) {
     std::optional<Event> event = located(from, next, kind, test);

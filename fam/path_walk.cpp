@@ -84,7 +84,7 @@ void PathWalk::follow(PathPlace place, int branch, int multiplicity) {
     if (!next) return;
     const double length = length_;
     std::optional<std::vector<Event>> events = events_between(place, *next);
-    if (events && !hold_on_more_arcs(place, *events)) {
+    if (events && (!hold_on_more_arcs(place, *events) || !stops_are_accurate(place, *events))) {
       start_anew(place);
       continue;
     }

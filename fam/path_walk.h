@@ -65,6 +65,7 @@ class PathWalk {
   void add_stops(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
   void add_closure(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
   bool hold_on_more_arcs(PathPlace& from, const std::vector<Event>& events);
+  bool stops_are_accurate(PathPlace& from, const std::vector<Event>& events);
   Event crossing(const PathPlace& from, const Event& near);
   std::optional<Event> located(const PathPlace& from, const PathPlace& next, Kind kind, const Test& test);
   Eigen::Matrix<double, 13, 1> away_from_start(const PathPlace& place) const;
