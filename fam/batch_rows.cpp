@@ -1,5 +1,6 @@
 #include "fam/batch_rows.h"
 
+#include "fam/solve.h"
 #include "fam/tolerance.h"
 
 #include "scene/load_visitor.h"
@@ -60,6 +61,9 @@ void BatchRows::solve(Eigen::Index begin, Eigen::Index end) {
     if (!rows.empty()) solve_in_lanes(kind, rows);
   }
   for (const std::ptrdiff_t row : left_) solve_one_by_one(row);
+  for (std::ptrdiff_t row = begin; row < end; ++row) {
+    if (result_.status[static_cast<std::size_t>(row)] == Status::tolerance_not_met) solve_by_itself(row);
+  }
 }
 
 void BatchRows::set_values(Eigen::Index row) {
@@ -69,7 +73,8 @@ void BatchRows::set_values(Eigen::Index row) {
   }
 }
 
-// By the model and the arcs that a Solver would take for each; the same for all where the arcs are given.
+// By the model that fam::solve would take for each, and the arcs that bounds ask for; the same for all where the arcs
+// are given.
 void BatchRows::sort(Eigen::Index begin, Eigen::Index end) {
   left_out_mm_.assign(tips_.size(), 0);
   for (auto& [kind, rows] : kinds_) rows.clear();
@@ -133,6 +138,18 @@ void BatchRows::solve_one_by_one(std::ptrdiff_t row) {
   if (status != Status::converged) return;
   keep(row, solver.tip().position_B_mm, Eigen::Quaterniond(solver.tip().rotation_BS),
        options_.estimate_error ? solver.error_estimate_mm() : 0);
+}
+
+// Lanes and a kept solver take as many arcs as bounds ask for; this tells from solutions how many do.
+void BatchRows::solve_by_itself(std::ptrdiff_t row) {
+  set_values(row);
+  Options options = options_;
+  options.whole_rod = false;
+  const scene::Equilibrium found = fam::solve(row_scene_, options);
+  result_.status[static_cast<std::size_t>(row)] = found.status;
+  if (!found.converged()) return;
+  const scene::Pose& tip = found.tip();
+  keep(row, tip.position_B_mm, Eigen::Quaterniond(tip.rotation_BS), found.error_estimate_mm);
 }
 
 void BatchRows::keep(std::ptrdiff_t row, const Eigen::Vector3d& position_mm, const Eigen::Quaterniond& rotation,

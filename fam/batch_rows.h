@@ -38,6 +38,7 @@ class BatchRows {
   void sort(Eigen::Index begin, Eigen::Index end);
   void solve_in_lanes(const Kind& kind, const Rows& rows);
   void solve_one_by_one(std::ptrdiff_t row);
+  void solve_by_itself(std::ptrdiff_t row);
   void set_values(Eigen::Index row);
   void keep(std::ptrdiff_t row, const Eigen::Vector3d& position_mm, const Eigen::Quaterniond& rotation,
             double error_mm);

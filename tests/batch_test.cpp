@@ -1,6 +1,7 @@
 // Many rods of one kind: row by row what a Solver gives, in any order.
 #include "support.h"
 
+#include "fam/solve.h"
 #include "fam/solver.h"
 
 #include <gtest/gtest.h>
@@ -148,6 +149,33 @@ TEST(Batch, OptionsAreThoseOfASolver) {
   published.law = fam::Law::published;
   for (const Status status : fam::solve_batch(catheter(), columns, values, published).status)
     EXPECT_EQ(status, Status::unsupported);
+}
+
+// A rod coiled out of a plane, which bounds ask more arcs for than a kept solver reserves.
+TEST(Batch, ARowThatBoundsGiveUpIsWhatSolveGives) {
+  scene::Scene coil = support::uniform_rod(250, support::slender(3190, 2280), {scene::Gravity{{0, 0, -0.01}}});
+  coil.sections[0].rest_curvature_per_mm = {0, 0.05, 0};
+  coil.sections.push_back(support::uniform_rod(150, support::slender(736, 526), {}).sections[0]);
+  coil.sections[1].rest_curvature_per_mm = {0.01, 0, 0.02};
+  for (scene::Section& section : coil.sections) {
+    scene::Stiffness stiffness = scene::stiffness_of(section);
+    stiffness.mass_per_length_kg_per_m = 4e-3;
+    section.cross_section = stiffness;
+  }
+  fam::Options options;
+  options.tolerance_mm = 4e-4;
+  options.reserved_arcs = 64;
+  fam::Solver solver = solver_of(coil, options);
+  ASSERT_FALSE(solver.solve().converged() && solver.error_estimate_mm() <= options.tolerance_mm);
+
+  RowMajorMatrix values(2, 1);
+  values << -0.01, -0.02;
+  const fam::BatchResult batch = fam::solve_batch(coil, std::vector<BatchColumn>{{0, 2}}, values, options);
+  const scene::Equilibrium alone = fam::solve(coil, options);
+  ASSERT_TRUE(alone.converged() && batch.status[0] == Status::converged && batch.status[1] == Status::converged);
+  EXPECT_EQ(batch.position_mm.row(0).transpose(), alone.tip().position_B_mm);
+  EXPECT_EQ(batch.error_estimate_mm[0], alone.error_estimate_mm);
+  EXPECT_LE(batch.error_estimate_mm.maxCoeff(), options.tolerance_mm);
 }
 
 TEST(Batch, NothingToChangeAndNothingToSolve) {
