@@ -75,6 +75,7 @@ constexpr Eigen::Index block = 512;
 BatchResult solve_batch(const scene::Scene& scene, std::span<const BatchColumn> columns,
                         Eigen::Ref<const RowMajorMatrix> values, const Options& options) {
   scene::validate(scene);
+  validate(options);
   std::vector<Load> loads = scene.loads;
   check(loads, columns);
   check(loads, columns, values);

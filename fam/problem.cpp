@@ -3,6 +3,8 @@
 #include "scene/span_facts.h"
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 
 namespace fam {
 namespace {
@@ -55,7 +57,20 @@ void Problem::reserve(const scene::Scene& scene, const Room& room) {
   }
 }
 
+void validate(const Options& options) {
+  const auto refuse = [](const char* what, double value, const char* rule) {
+    std::ostringstream why;
+    why << "options." << what << " = " << value << ": " << rule;
+    throw scene::SceneError(why.str());
+  };
+  const double tolerance_mm = options.tolerance_mm;
+  if (!(tolerance_mm >= 0 && std::isfinite(tolerance_mm)))
+    refuse("tolerance_mm", tolerance_mm, "must be finite and >= 0");
+  if (options.arcs < 0) refuse("arcs", options.arcs, "must be >= 0");
+}
+
 void Problem::take(const scene::Scene& scene, const Options& options) {
+  validate(options);
   scene_ = scene;
   options_ = options;
   tolerance_mm_ = options.tolerance_mm > 0 ? options.tolerance_mm : 1e-3 * scene::length_mm(scene);

@@ -8,6 +8,9 @@
 
 namespace fam {
 
+// Throws scene::SceneError.
+void validate(const Options& options);
+
 class Problem {
  public:
   Problem() = default;
