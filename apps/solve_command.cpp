@@ -100,6 +100,8 @@ CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments) {
       throw CLI::ValidationError("--derivatives", "the law published has none");
     if (!arguments.vtu_path.empty() && arguments.method == "elastica")
       throw CLI::ValidationError("--vtu", "the method elastica gives the tip alone");
+    if (!arguments.vtu_path.empty() && arguments.vtu_path == arguments.svg_path)
+      throw CLI::ValidationError("--vtu", "names the file of --svg");
     if (options.after_snap && arguments.method != "fam")
       throw CLI::ValidationError("--after-snap", "needs the method fam");
     if (solve->count("--twist-order") > 0 && options.law != fam::Law::published)

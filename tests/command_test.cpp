@@ -128,6 +128,7 @@ TEST(Command, WrongUsageNamesWhatIsWrong) {
   EXPECT_EQ(refused(fam, ""), "A subcommand is required");
   EXPECT_EQ(refused(fam, "solve " + scene + " --twist-order twist_bend"), "--twist-order: needs --law published");
   EXPECT_EQ(refused(fam, "solve " + scene + " --svg \"\""), "--svg: must name a file");
+  EXPECT_EQ(refused(fam, "solve " + scene + " --svg rod.xml --vtu rod.xml"), "--vtu: names the file of --svg");
   const std::string nowhere = (scratch() / "nowhere").string();
   EXPECT_EQ(refused(fam_studies, "random sum " + nowhere + " out"), nowhere + ": No such file or directory");
   for (const auto& [method, option] :

@@ -1,8 +1,8 @@
 // Tables, pictures, error measures, files.
-#include "studies/report/chart.h"
 #include "studies/compare/error_measures.h"
-#include "studies/report/output_file.h"
 #include "studies/compare/stopwatch.h"
+#include "studies/report/chart.h"
+#include "studies/report/output_file.h"
 #include "studies/report/table.h"
 
 #include <gtest/gtest.h>
@@ -83,6 +83,10 @@ TEST(Svg, IsDeterministicAndEscapes) {
   svg.cross({5, 5}, 2, {});
   EXPECT_NE(svg.str().find("y=\"0.00\""), std::string::npos);
   EXPECT_NE(svg.str().find("a &lt; b &amp; c"), std::string::npos);
+  // XML 1.0, 2.2: no character below U+0020 but tab, line feed and carriage return, and neither U+FFFE nor U+FFFF.
+  svg.text({1, 1}, std::string("a\x01") + "b\tc\x1b\xEF\xBF\xBF d\xEF\xBC\x81");
+  const std::string unknown = "\xEF\xBF\xBD";
+  EXPECT_NE(svg.str().find("a" + unknown + "b\tc" + unknown + unknown + " d\xEF\xBC\x81"), std::string::npos);
 }
 
 TEST(OutputFile, WritesWholeOrNotAtAll) {

@@ -31,13 +31,18 @@ const char* anchor_text(Anchor anchor) {
   return anchors[static_cast<int>(anchor)];
 }
 
+// In UTF-8; characters that XML 1.0 knows no way to write are shown as unknown ones.
 std::string escaped(const std::string& text) {
+  const std::string unknown = "\xEF\xBF\xBD";
   std::string safe;
   for (const char c : text) {
+    const bool is_control = static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r';
     if (c == '&') safe += "&amp;";
     else if (c == '<') safe += "&lt;";
     else if (c == '>') safe += "&gt;";
+    else if (is_control) safe += unknown;
     else safe += c;
+    if (safe.ends_with("\xEF\xBF\xBE") || safe.ends_with("\xEF\xBF\xBF")) safe.replace(safe.size() - 3, 3, unknown);
   }
   return safe;
 }
