@@ -83,6 +83,28 @@ double twist_per_Nmm2(const Span& span) {
   return 1 / span.stiffness.torsion_Nmm2 - 1 / span.stiffness.bending_Nmm2[0];
 }
 
+double compliance_left_out(const scene::Scene& scene) {
+  double shift_mm_per_N = 0, bent_mm_per_N = 0, to_tip_mm = scene::length_mm(scene);
+  for (const scene::Section& section : scene.sections) {
+    Span span;
+    span.stiffness = scene::stiffness_of(section);
+    shift_mm_per_N += section.length_mm * linear_compliance_per_N(span);
+    const double beyond_mm = to_tip_mm - section.length_mm;
+    bent_mm_per_N += (std::pow(to_tip_mm, 3) - std::pow(beyond_mm, 3)) / (3 * span.stiffness.bending_Nmm2.minCoeff());
+    to_tip_mm = beyond_mm;
+  }
+  return shift_mm_per_N / bent_mm_per_N;
+}
+
+double linear_strain_bound(std::span<const Span> spans) {
+  double largest = 0;
+  walk_from_tip(spans, OneEach{}, [&](const LoadedCell& span) {
+    const double force_N = span.force_N + straight_tendons(span.span).force_N.norm();
+    largest = std::max(largest, linear_compliance_per_N(span.span) * force_N);
+  });
+  return largest;
+}
+
 RodChoice choose_rod(std::span<const Span> spans, RodModel wanted, double tolerance_mm) {
   using enum RodChoice::Why;
   if (wanted != RodModel::automatic) return {wanted, 0, asked_for};

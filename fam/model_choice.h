@@ -4,6 +4,7 @@
 #include "fam/options.h"
 #include "fam/screw.h"
 
+#include "scene/scene.h"
 #include "scene/span.h"
 
 #include <optional>
@@ -24,6 +25,13 @@ struct RodChoice {
   Why why = Why::asked_for;
 };
 RodChoice choose_rod(std::span<const scene::Span> spans, RodModel wanted, double tolerance_mm);
+
+// How a straight unloaded rod's tip gives way to a force by shear and stretch, over how it does by bending: of the
+// largest number of the tip's compliance, what the Kirchhoff rod leaves out.
+double compliance_left_out(const scene::Scene& scene);
+
+// A bound on the strains |K_v^-1 n| of shear and stretch.
+double linear_strain_bound(std::span<const scene::Span> spans);
 
 // Arcs of each span to start with: as many as it takes that no arc has a load length (load_length.h) beyond
 // first_load_length, and that none turns farther by rest curvature, tendons and moments than first_turn_rad where a

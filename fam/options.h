@@ -14,7 +14,8 @@ constexpr int most_newton_steps = 3000;  // while loads grow (load_growth.h)
 
 struct Options {
   Law law = Law::automatic;                         // automatic: sixth_order
-  RodModel model = RodModel::automatic;             // automatic: Kirchhoff unless the scene stretches or shears visibly
+  // automatic: Kirchhoff unless the scene, or a Solver's derivatives, stretch or shear visibly (model_choice.h)
+  RodModel model = RodModel::automatic;
   TwistOrder twist_order = TwistOrder::bend_twist;  // of the published law
 
   // Number of arcs, 1..max_arcs; 0: as many as the tolerance asks for. Each span between section changes and loads

@@ -49,8 +49,19 @@ Vector3d value_of(const scene::Load& load) {
 }  // namespace
 
 // What a load's arm, place and number of tendons may come to: spans end wherever a load begins or ends, now or before.
-Solver::Impl::Impl(const scene::Scene& wanted, const Options& wanted_options) : scene(wanted), options(wanted_options) {
+Solver::Impl::Impl(const scene::Scene& wanted, const Options& wanted_options)
+    : scene(wanted), options(wanted_options), model_asked_for(wanted_options.model) {
+  choose_model();
   attempts[0].problem.set(scene, options);
+}
+
+// Shear and stretch are not left out where derivatives tell them: under no load they move no tip, and yet give way.
+void Solver::Impl::choose_model() {
+  const double tolerance_mm = options.tolerance_mm > 0 ? options.tolerance_mm : 1e-3 * scene::length_mm(scene);
+  options.model = model_asked_for;
+  if (model_asked_for != RodModel::automatic || !facts_of(chosen(options.law)).coupled) return;
+  if (compliance_left_out(scene) > left_out_share * tolerance_mm / scene::length_mm(scene))
+    options.model = RodModel::reissner;
 }
 
 void Solver::Impl::reserve() {
@@ -93,8 +104,11 @@ void Solver::Impl::choose_arcs(const Problem& problem) {
     scene::share_cells(problem.spans(), options.arcs, arcs, shares);
     return;
   }
-  set_first_arcs(problem.way().bounds, problem.choice().plane.has_value(), arcs,
-                 arcs_factor(problem.choice().law, problem.tolerance_mm() / problem.length_mm()));
+  // An arc stretched v times bends by sqrt(v F / EI) h.
+  const bool stretches = problem.choice().rod.model == RodModel::reissner;
+  const double stretch = stretches ? 1 + linear_strain_bound(problem.way().bounds) : 1;
+  const double factor = arcs_factor(problem.choice().law, problem.tolerance_mm() / problem.length_mm());
+  set_first_arcs(problem.way().bounds, problem.choice().plane.has_value(), arcs, std::sqrt(stretch) * factor);
 }
 
 // By how much, to first order, loads have turned the tip since the last solution, where its derivatives are at hand.

@@ -23,6 +23,7 @@ struct Attempt {
 struct Solver::Impl {
   scene::Scene scene;
   Options options;
+  RodModel model_asked_for;
   int most_arcs = 0;
   std::array<Attempt, 2> attempts;
   ArcExtent extent;           // of the arcs that solve_with_arcs() solved last
@@ -51,6 +52,7 @@ struct Solver::Impl {
   std::optional<std::optional<bool>> stable;
 
   Impl(const scene::Scene& scene, const Options& options);
+  void choose_model();
   void reserve();
   Attempt& next() { return attempts[solved == &attempts[0] ? 1 : 0]; }
   Outcome solve(Start start, int newton_steps_at_most);

@@ -93,6 +93,7 @@ void Solver::set_stiffness_Nmm2(std::size_t section, const Vector3d& GJ_EIy_EIz_
   section_of(impl_->scene, section);
   if (!(GJ_EIy_EIz_Nmm2.allFinite() && GJ_EIy_EIz_Nmm2.minCoeff() > 0)) refuse(impl_->scene, put);
   put(impl_->scene);
+  impl_->choose_model();
 }
 
 }  // namespace fam

@@ -174,6 +174,49 @@ TEST(Estimator, AxialForceOnAStraightRodIsNotObservable) {
   EXPECT_TRUE(Estimator(problem).estimate().observable[0]);
 }
 
+// The largest information is none, or round-off.
+TEST(Estimator, WhereNothingTellsNothingIsObservable) {
+  const auto expect_nothing = [](const EstimationProblem& problem) {
+    const Estimate found = Estimator(problem).estimate();
+    ASSERT_TRUE(found.converged()) << found.message;
+    EXPECT_FALSE(found.observable[0]);
+    EXPECT_TRUE(std::isnan(found.mean[0]) && std::isnan(found.sd[0]) && std::isnan(found.covariance(0, 0)));
+    ASSERT_EQ(found.unobservable.size(), 1u);
+    EXPECT_EQ(found.unobservable[0], Eigen::VectorXd::Unit(1, 0));
+  };
+  const scene::Scene straight = rod_under({force(L_mm, Vector3d::Zero())});
+  const scene::Measurement tip{L_mm, scene::PositionMeasurement{{L_mm, 0, 0}, 1e-3}};
+  expect_nothing({{{straight, {tip}}}, components(0, {0}, straight)});
+  expect_nothing({{{straight, {tip}}}, {{Kind::bending_factor, 0, 0, 0, 1}}});
+  const scene::Scene bent = rod_under({force(L_mm / 2, {0, 0.5, 0}), scene::Tendon{{0, 1}, 3, L_mm}});
+  for (const double x_mm : {0., 0.05})
+    expect_nothing({{{bent, {{0, scene::PositionMeasurement{{x_mm, 0, 0}, 0.1}}}}}, components(0, {1}, bent)});
+  // The twin: across a force can be told from the tip.
+  EXPECT_TRUE(Estimator({{{straight, {tip}}}, components(0, {1}, straight)}).estimate().observable[0]);
+  // A prior stays what it is.
+  EstimationProblem believed{{{straight, {tip}}}, components(0, {0, 1}, straight)};
+  believed.unknowns[0].prior_sd = 0.5;
+  const Estimate found = Estimator(believed).estimate();
+  EXPECT_EQ(found.observable, (std::vector<bool>{false, true}));
+}
+
+// Unloaded, a rod that stretches gives way to an axial force by L/EA: 0.1 mm are 1.5 N +- 0.015.
+TEST(Estimator, AnAxialForceStretches) {
+  scene::Scene stub = rod_under({force(L_mm, Vector3d::Zero())});
+  scene::Stiffness stiffness = scene::stiffness_of(stub.sections[0]);
+  stiffness.axial_N = 600;
+  stub.sections[0].cross_section = stiffness;
+  const scene::Measurement tip{L_mm, scene::PositionMeasurement{{L_mm + 0.1, 0, 0}, 1e-3}};
+  EstimationProblem problem{{{stub, {tip}}}, components(0, {0}, stub)};
+  const Estimate found = Estimator(problem).estimate();
+  ASSERT_TRUE(found.converged() && found.observable[0]);
+  EXPECT_NEAR(found.mean[0], 1.5, 1e-4);
+  EXPECT_NEAR(found.sd[0], 0.015, 1e-6);
+  stiffness.axial_N = 1.05 * 600;
+  problem.scenes[0].scene.sections[0].cross_section = stiffness;
+  EXPECT_GT(std::abs(Estimator(problem).estimate().mean[0] - 1.5), 0.05);
+}
+
 TEST(Estimator, ForceNextToTheClampIsNotObservable) {
   scene::Scene truth = rod_under({force(0.9e-6 * L_mm, {0, 0.5, 0}), force(L_mm, {0, 0.2, 0})});
   const scene::Equilibrium exact = exact_reference::solve(truth, {});

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include <functional>
 #include <random>
 
 namespace {
@@ -394,6 +395,77 @@ TEST(Solver, EndsAfterAsManyNewtonStepsAsItMayTake) {
 }
 
 // A refused value leaves all as it was, and is told as the scene format tells it.
+// Timoshenko's beam: L^3/3EI + L/kGA across, L/EA along. Under no load neither moves the tip.
+TEST(Solver, ShearAndStretchShowInDerivatives) {
+  const double L = 20, EI = 1500, EA = 300, kGA = 100;
+  scene::Stiffness stub = slender(EI, 1000);
+  stub.axial_N = EA;
+  stub.shear_N = Eigen::Vector2d(kGA, kGA);
+  const auto compliance = [&](const scene::Stiffness& stiffness, double tolerance_mm) {
+    Solver solver = kept(uniform_rod(L, stiffness, {scene::Force{L, Frame::fixed, Vector3d::Zero()}}),
+                         {.tolerance_mm = tolerance_mm});
+    EXPECT_TRUE(solver.solve().converged());
+    return Solver::Matrix6(solver.compliance(L));
+  };
+  const auto is_timoshenkos = [&](const Solver::Matrix6& C) {
+    return std::abs(C(0, 0) - L / EA) < 1e-7 && std::abs(C(1, 1) - L * L * L / (3 * EI) - L / kGA) < 1e-7;
+  };
+  EXPECT_TRUE(is_timoshenkos(compliance(stub, 2e-8)));
+  EXPECT_TRUE(is_timoshenkos(compliance(stub, 0)));
+  scene::Stiffness stiffer = stub;
+  *stiffer.shear_N *= 1.05;
+  EXPECT_FALSE(is_timoshenkos(compliance(stiffer, 2e-8)));
+
+  // So they do where a section becomes stiffer against bending alone.
+  stub.bending_Nmm2 = {0.5, 0.5};
+  Solver solver = kept(uniform_rod(L, stub, {scene::Force{L, Frame::fixed, Vector3d::Zero()}}), {});
+  solver.set_stiffness_Nmm2(0, {1000, EI, EI});
+  ASSERT_TRUE(solver.solve().converged());
+  EXPECT_TRUE(is_timoshenkos(solver.compliance(L)));
+}
+
+// Bounds know no stretch, and arcs grow with it. Limit: the tolerance; the exact reference.
+TEST(Solver, StretchedRodsTakeMoreArcs) {
+  scene::Stiffness soft = slender(750, 1000);
+  soft.bending_Nmm2 = {750, 900};
+  soft.shear_N = Eigen::Vector2d(99.3, 99.3);
+  const double L = 0.24;
+  const scene::Scene scene = uniform_rod(L, soft,
+                                         {scene::Moment{L, Frame::fixed, {-2300, -2850, 3500}},
+                                          scene::DistributedForce{0, L, Frame::fixed, {0, -1.1e5, -3.2e4}}});
+  for (const double share : {1e-3, 1e-5}) {
+    Solver solver = kept(scene, {.tolerance_mm = share * L});
+    ASSERT_TRUE(solver.solve().converged());
+    const auto error_mm = [&](const scene::Scene& of) {
+      return (solver.tip().position_B_mm - exact_reference::solve(of).tip().position_B_mm).norm();
+    };
+    EXPECT_LT(error_mm(scene), share * L);
+    EXPECT_GT(error_mm(support::stiffer(scene)), share * L);
+  }
+}
+
+TEST(Solver, RefusesWrongOptions) {
+  const auto refusal = [](const fam::Options& options) -> std::string {
+    std::string first;
+    for (const auto& call : {std::function([&] { Solver::make(robot(), options); }),
+                             {[&] { fam::solve(robot(), options); }},
+                             {[&] { fam::solve_batch(robot(), {}, fam::RowMajorMatrix(1, 0), options); }}}) {
+      try {
+        call();
+        return "accepted";
+      } catch (const scene::SceneError& error) {
+        EXPECT_TRUE(first.empty() || first == error.what()) << first;
+        first = error.what();
+      }
+    }
+    return first;
+  };
+  EXPECT_EQ(refusal({.tolerance_mm = std::nan("")}), "options.tolerance_mm = nan: must be finite and >= 0");
+  EXPECT_EQ(refusal({.tolerance_mm = -1}), "options.tolerance_mm = -1: must be finite and >= 0");
+  EXPECT_EQ(refusal({.arcs = -3}), "options.arcs = -3: must be >= 0");
+  EXPECT_EQ(refusal({}), "accepted");
+}
+
 TEST(Solver, RefusesWrongValues) {
   Solver solver = kept(robot(), {});
   solver.solve();
