@@ -96,9 +96,11 @@ Equilibrium solve_by_tolerance(Workspace& memory) {
   const Problem& problem = memory.problem;
   Found found = solve_to_tolerance(problem, memory.one, memory.another, problem.follows_path());
   if (!found.run->converged() && problem.follows_path()) {
-    if (std::optional<Equilibrium> result = beyond(problem, *found.run)) return *result;
+    const std::optional<Equilibrium> result = beyond(problem, *found.run);
     // A fold of few arcs that the path does not know.
-    if (found.run->engine.nears_fold()) found = solve_to_tolerance(problem, memory.one, memory.another);
+    const bool is_none = found.run->engine.nears_fold() && (!result || result->converged());
+    if (is_none) found = solve_to_tolerance(problem, memory.one, memory.another);
+    if (!found.run->converged() && result) return *result;
   }
   if (found.status == Status::tolerance_not_met) return tolerance_not_met(problem, *found.run, found.error_mm);
   if (found.status != Status::converged) return failure(*found.run);
