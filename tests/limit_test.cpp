@@ -8,6 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 namespace {
 
 using scene::Equilibrium;
@@ -77,6 +80,28 @@ TEST(Limit, TheFirstArcsThatMeetAFoldEndTheGrowth) {
   const fam::Found last = solve_to_tolerance(problem, one, another);
   EXPECT_EQ(last.status, Status::load_step_too_small);
   EXPECT_LE(2 * arcs, last.run->arc_count());
+}
+
+// Two and four arcs meet one where the path, and so more arcs, know none.
+TEST(Limit, AFoldOfFewArcsIsNone) {
+  for (const std::uint64_t seed : {202u, 1476u}) {
+    const scene::Scene rod = studies::random_scene(seed);
+    fam::Problem problem;
+    fam::Options options;
+    options.tolerance_mm = 1e-5 * scene::length_mm(rod);
+    problem.set(rod, options);
+    fam::Run one, another;
+    EXPECT_TRUE(solve_to_tolerance(problem, one, another, true).run->engine.nears_fold());
+    const Equilibrium found = fam::solve(rod, options);
+    ASSERT_TRUE(found.converged()) << found.message;
+    const auto is_by_path = [](const auto& fact) {
+      const auto* text = std::get_if<std::string>(&fact.second);
+      return text && text->find("its path followed") != std::string::npos;
+    };
+    EXPECT_TRUE(std::none_of(found.model.begin(), found.model.end(), is_by_path));
+    const Equilibrium exact = exact_reference::solve(rod);
+    EXPECT_LT((found.tip().position_B_mm - exact.tip().position_B_mm).norm(), options.tolerance_mm);
+  }
 }
 
 // Its path, followed by arc length, leads to the full load.
