@@ -77,7 +77,7 @@ bool PathWalk::hold_on_more_arcs(PathPlace& from, const std::vector<Event>& even
     return all;
   };
   const std::vector<Event> coarse = critical(events);
-  if (coarse.empty() || !stepper_.may_double_for_critical_points()) return true;
+  if (coarse.empty() || !stepper_.may_double()) return true;
   const SavedPlace before = stepper_.saved(from);
   const PathChange curvature = curvature_;
   PathPlace finer = from;
@@ -102,12 +102,12 @@ bool PathWalk::hold_on_more_arcs(PathPlace& from, const std::vector<Event>& even
   return hold;
 }
 
-// Whether the rod is within the tolerance at the parameters that the path stops at, and not only near those; else `from`
-// gets more arcs.
+// Whether the rod is within the tolerance at the parameters that the path stops at, and not only near those; else
+// `from` gets more arcs.
 bool PathWalk::stops_are_accurate(PathPlace& from, const std::vector<Event>& events) {
   for (const Event& event : events) {
     const bool is_stop = event.kind == Kind::regular || event.kind == Kind::end;
-    if (is_stop && !stepper_.is_accurate(event.place) && stepper_.may_double_for_critical_points())
+    if (is_stop && !stepper_.is_accurate(event.place) && stepper_.may_double())
       return !stepper_.refine_for(event.place, from);
   }
   return true;

@@ -183,7 +183,7 @@ std::optional<PathPlace> PathStepper::at(const PathPlace& near, double parameter
   return place;
 }
 
-bool PathStepper::may_double_for_critical_points() const {
+bool PathStepper::may_double() const {
   constexpr int most = 256;  // arcs to double; of the sixth order, more bring nothing but round-off
   return options_.arcs == 0 && equations_.rod().arc_count() <= most;
 }

@@ -63,7 +63,8 @@ class PathStepper {
   // The solution with exactly this parameter, near one.
   std::optional<PathPlace> at(const PathPlace& near, double parameter);
 
-  bool may_double_for_critical_points() const;
+  // For critical points and stops, which no arc of a regular point tells of.
+  bool may_double() const;
   // How far a critical value of the parameter may be off: the share of it that the tolerance is of the length.
   double parameter_tolerance(double parameter) const;
   // Whether the place is as accurate as asked for, with arcs that do not swing too far.
