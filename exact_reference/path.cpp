@@ -2,6 +2,7 @@
 
 #include "exact_reference/boundary_value.h"
 #include "exact_reference/path_walk.h"
+#include "scene/subnormals_as_zero.h"
 
 #include <algorithm>
 #include <cmath>
@@ -138,6 +139,7 @@ class Follower {
 scene::Path follow(const scene::PathRequest& request, const Options& options, const PathVisitor& visit) {
   check(options);
   scene::validate(request);
+  const scene::SubnormalsAsZero fast;
   return Follower(request, options, visit).follow();
 }
 

@@ -1,6 +1,7 @@
 #include "fem_reference/path.h"
 
 #include "fem_reference/path_tracer.h"
+#include "scene/subnormals_as_zero.h"
 
 #include <algorithm>
 #include <cmath>
@@ -198,6 +199,7 @@ scene::Path Follower::run() {
 
 scene::Path follow(const scene::PathRequest& request, const Options& options, const OnPathPoint& on_point) {
   validate(options);
+  const scene::SubnormalsAsZero fast;
   return Follower(request, options, on_point).run();
 }
 
