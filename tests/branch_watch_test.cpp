@@ -52,13 +52,13 @@ scene::BranchWatch watched(const std::vector<double>& ways_left, double exponent
 // As the root of the way left: a fold. As the way itself: two branches that part, or all but do, where a stable one may
 // go on; as its power 2/3: all but a fold.
 TEST(BranchWatch, TellsAFold) {
-  const std::vector<double> steps = {1, 0.5, 0.3, 0.28, 0.14, 0.12, 0.04, 1e-2, 4e-3};
+  const std::vector<double> steps = {1, 0.5, 0.3, 0.28, 0.14, 0.12, 0.04, 1e-2, 4e-3, 1e-3, 4e-4};
   EXPECT_TRUE(watched(steps, 0.5).nears_fold_before(1.01));
   EXPECT_FALSE(watched(steps, 1).nears_fold_before(1.01));
   EXPECT_FALSE(watched(steps, 2.0 / 3).nears_fold_before(1.01));
-  EXPECT_FALSE(watched({1, 0.5, 0.24, 0.11, 0.05}, 0.5).nears_fold_before(1.01));  // not yet
-  EXPECT_TRUE(watched({1, 0.5, 0.24, 0.11, 0.05, 0.02}, 0.5).nears_fold_before(1.01));
-  EXPECT_FALSE(watched({1, 0.97, 0.94, 0.91, 0.88, 0.85, 0.82, 0.79}, 1).nears_fold_before(1.01));
+  EXPECT_FALSE(watched({1, 0.5, 0.24, 0.11, 0.05, 0.02, 0.009}, 0.5).nears_fold_before(1.01));  // not yet
+  EXPECT_TRUE(watched({1, 0.5, 0.24, 0.11, 0.05, 0.02, 0.009, 0.004}, 0.5).nears_fold_before(1.01));
+  EXPECT_FALSE(watched({1, 0.97, 0.94, 0.91, 0.88, 0.85, 0.82, 0.79, 0.76, 0.73}, 1).nears_fold_before(1.01));
   // One long step to where it all but vanishes says nothing of how it fell.
   EXPECT_FALSE(watched({1, 0.7, 0.5, 1e-4}, 1).nears_fold_before(1.01));
   EXPECT_FALSE(watched({1, 0.9, 1e-9}, 0.5).nears_fold_before(1.01));
@@ -68,7 +68,7 @@ TEST(BranchWatch, TellsAFold) {
   EXPECT_FALSE(watched(steps, 0.5).nears_fold_before(0.999));
 
   scene::BranchWatch watch = watched(steps, 0.5);
-  watch.keep(1 - 3e-3, {3 + 0.5 * std::log(5e-3), true});  // it rises again
+  watch.keep(1 - 3e-4, {3 + 0.5 * std::log(5e-4), true});  // it rises again
   EXPECT_FALSE(watch.nears_fold_before(1.01));
 }
 

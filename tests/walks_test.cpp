@@ -119,6 +119,15 @@ TEST(Walks, ExactWaysEndAlikeWhereThereIsOneEquilibrium) {
   EXPECT_GE((along.tip().position_B_mm - twin.tip().position_B_mm).norm(), 1e-3 * L) << "the twin, pushed less";
 }
 
+// Determinants that fall as before a fold over a factor of 16 of the way left to it, and there is none.
+TEST(Walks, GoOnWhereAFoldOnlySeemsNear) {
+  for (const std::uint64_t seed : {201000, 100881}) {
+    const std::vector<studies::WalkStep> steps = studies::walk(seed, studies::Judge::exact);
+    ASSERT_EQ(steps.size(), static_cast<std::size_t>(studies::steps_of_walk));
+    for (const studies::WalkStep& step : steps) EXPECT_EQ(step.outcome, "as exact") << seed << ", step " << step.step;
+  }
+}
+
 // Walks that need more arcs at their start than the bounds on the loads ask for.
 TEST(Walks, StartWithMoreArcsWhereTheShapeNeedsThem) {
   for (const std::uint64_t seed : {318, 200350}) {
