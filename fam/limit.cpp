@@ -27,7 +27,7 @@ PathWalk::Settings settings_for(const scene::Scene& scene) {
   const bool pulls = std::any_of(scene.loads.begin(), scene.loads.end(),
                                  [](const scene::Load& load) { return scene::tendon_of(load) != nullptr; });
   PathWalk::Settings settings;
-  settings.range = {pulls ? 0 : lowest_factor, highest_factor, 1, true, limit_tolerance};
+  settings.range = {pulls ? 0 : lowest_factor, highest_factor, 1, true, limit_tolerance, false};
   settings.to = highest_factor;
   settings.stops = {1};
   settings.largest_step = longest_load_step;

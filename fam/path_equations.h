@@ -96,7 +96,6 @@ class PathEquations {
   const std::vector<ArcRange>& segments() const { return shooting_.segments(); }
   double length_mm() const { return rod().way().to.back().end_mm; }
   std::span<const scene::Span> spans_at(double parameter);
-  double unit() const { return settings_.unit; }
   double newton_tolerance() const { return settings_.newton_tolerance; }
   // What keeps Newton's steps, tangents and null vectors in the subspace of a symmetry that the rod has so far.
   void hold(scene::Symmetry symmetry) { held_ = symmetry; }
@@ -131,7 +130,7 @@ class PathEquations {
     double error_mm = 0, swing_rad = 0;
     Vector3d tip_position_B_mm = Vector3d::Zero();
   };
-  Accuracy accuracy(const PathState& state);
+  Accuracy accuracy(const PathState& state, const Change& tangent);
   // Of each span at this state, whether its arcs swing farther than this or are among those that make the rod
   // inaccurate: twice as many would lead elsewhere.
   std::vector<bool> coarse_spans(const PathState& state, double allowed_swing_rad);
@@ -141,7 +140,6 @@ class PathEquations {
   // Stations, tip angle and tendons' shortening of the scene at the state's parameter.
   scene::Equilibrium equilibrium(const PathState& state, const scene::Scene& scene);
   void set_parameter(double parameter);
-  void set_nodes(const PathState& state) { shooting_.set_nodes(state.nodes); }
   long long arcs_marched() const { return arcs_marched_; }  // by all Newton steps so far
   bool tendon_collapsed() const { return rod().tendon_collapsed(); }
 

@@ -53,7 +53,8 @@ std::optional<std::vector<PathWalk::Event>> PathWalk::events_between(const PathP
       const int change = std::abs(*next.index - *from.index);
       if (change > explained || (explained - change) % 2 != 0) {
         if (length_ > unexplained_length) return std::nullopt;
-        if (change > explained && steps_ > 0) events.push_back({length_ / 2, from, Kind::branch, std::min(2, change)});
+        if (change > explained && !steps_taken_.empty())
+          events.push_back({length_ / 2, from, Kind::branch, std::min(2, change)});
       }
     }
     if (events.size() == 2 && std::abs(events[0].length - events[1].length) < one_crossing * length_) {
@@ -71,28 +72,32 @@ std::optional<std::vector<PathWalk::Event>> PathWalk::events_between(const PathP
 
 // Whether twice the arcs put the folds and branch points of a step where these arcs do, to the tolerance; else `from`
 // gets them. Of a rod on its axis nothing but its critical points tells how many arcs they take.
-bool PathWalk::hold_on_more_arcs(PathPlace& from, const std::vector<Event>& events) {
-  const auto critical = [](std::vector<Event> all) {
-    std::erase_if(all, [](const Event& e) { return e.kind != Kind::fold && e.kind != Kind::branch && !e.is_arrival; });
-    return all;
+bool PathWalk::hold_on_more_arcs(PathPlace& from, std::vector<Event>& events) {
+  const auto critical = [](std::vector<Event>& all) {
+    std::vector<Event*> those;
+    for (Event& e : all) {
+      if (e.kind == Kind::fold || e.kind == Kind::branch || e.is_arrival) those.push_back(&e);
+    }
+    return those;
   };
-  const std::vector<Event> coarse = critical(events);
+  const std::vector<Event*> coarse = critical(events);
   if (coarse.empty() || !stepper_.may_double()) return true;
   const SavedPlace before = stepper_.saved(from);
   const PathChange curvature = curvature_;
   PathPlace finer = from;
   const bool refined = stepper_.refine(finer);
   curvature_ = stepper_.equations().zero_change();
-  const double allowed = stepper_.parameter_tolerance(coarse.front().place.state.parameter);
+  const double allowed = stepper_.parameter_tolerance(coarse.front()->place.state.parameter);
   located_to_ = std::max(located_to, 0.01 * allowed / stepper_.unit());
   bool hold = !refined;
   if (auto next = refined ? stepper_.step(finer, length_, curvature_) : std::nullopt; next && stepper_.judge(*next)) {
     if (auto found = events_between(finer, *next)) {
-      const std::vector<Event> fine = critical(*found);
+      const std::vector<Event*> fine = critical(*found);
       hold = fine.size() == coarse.size();
       for (std::size_t i = 0; hold && i < fine.size(); ++i) {
-        const double there = fine[i].place.state.parameter, here = coarse[i].place.state.parameter;
+        const double there = fine[i]->place.state.parameter, here = coarse[i]->place.state.parameter;
         hold = std::abs(there - here) <= stepper_.parameter_tolerance(here);
+        if (coarse[i]->kind == Kind::branch && !coarse[i]->is_arrival) coarse[i]->parameter_on_more_arcs = there;
       }
     }
   }
@@ -177,7 +182,9 @@ bool PathWalk::is_first_again(const PathPlace& place) {
 }
 
 void PathWalk::add_closure(const PathPlace& from, const PathPlace& next, std::vector<Event>& events) {
-  if (steps_ < 3 || std::any_of(events.begin(), events.end(), [](const Event& e) { return e.end.has_value(); })) return;
+  if (steps_taken_.size() < 3 ||
+      std::any_of(events.begin(), events.end(), [](const Event& e) { return e.end.has_value(); }))
+    return;
   const Eigen::Matrix<double, 13, 1> before = away_from_start(from), after = away_from_start(next);
   const Eigen::Matrix<double, 13, 1> way = after - before;
   if (!(before.dot(way) < 0 && after.dot(way) >= 0) || before.norm() > 2 * way.norm()) return;

@@ -13,6 +13,8 @@ namespace {
 using path_rows::first_row;
 using path_rows::row_count;
 
+// Of a tangent: nearer to a fold the parameter says little of where on the path the rod is. Chosen, not measured.
+constexpr double least_slope = 0.01;
 constexpr double to_blame = 0.1;  // a span, of the error of the worst one; chosen, not measured
 
 // The arc that one of another mesh ends with.
@@ -168,9 +170,9 @@ std::vector<bool> PathEquations::coarse_spans(const PathState& state, double all
   return coarse;
 }
 
-// One Newton step, with the factors at hand, towards the solution with twice the arcs; what it does to the positions is
-// told by the arcs as they are.
-PathEquations::Accuracy PathEquations::accuracy(const PathState& state) {
+// One Newton step, with the factors at hand, towards the solution with twice the arcs, and on along the path to the same
+// parameter; what it does to the positions is told by the arcs as they are.
+PathEquations::Accuracy PathEquations::accuracy(const PathState& state, const Change& tangent) {
   std::vector<ArcRange> segments = mesh_.segments;
   for (ArcRange& segment : segments) segment = {2 * segment.first_arc, 2 * segment.end_arc};
   fine_.set_load(1);
@@ -181,7 +183,10 @@ PathEquations::Accuracy PathEquations::accuracy(const PathState& state) {
     for (int i = 0; i < row_count(k); ++i) right_[row_of(first_row(k) + i)] = -equations.residual[i];
   }
   system_.substitute(right_);
-  const PathState finer = moved(state, projected(without_borders(right_)));
+  Change change = projected(without_borders(right_));
+  const Eigen::Index p = change.size() - 1;
+  change -= change[p] / std::copysign(std::max(std::abs(tangent[p]), least_slope), tangent[p]) * tangent;
+  const PathState finer = moved(state, change);
   set_parameter(finer.parameter);
   const std::vector<Vector3d> there = positions_mm(finer);
   set_parameter(state.parameter);

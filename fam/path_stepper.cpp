@@ -52,7 +52,7 @@ PathStepper::PathStepper(const scene::PathRequest& request, const Options& optio
     : request_(request),
       options_(options),
       settings_(settings),
-      tolerance_mm_(options.tolerance_mm > 0 ? options.tolerance_mm : 1e-3 * scene::length_mm(request.scene)),
+      tolerance_mm_(fam::tolerance_mm(options, scene::length_mm(request.scene))),
       equations_(request, settings_for(request, options, tolerance_mm_, settings)) {
   set_symmetry(request);
 }
@@ -98,7 +98,10 @@ std::optional<PathPlace> PathStepper::start(double parameter, bool upwards) {
   Run one, another;
   const Found found = solve_to_tolerance(problem, one, another);
   if (found.status != scene::Status::converged) {
-    message_ = std::string(scene::name(found.status)) + ": " + found.run->engine.failure_message(found.status);
+    message_ = std::string(scene::name(found.status)) + ": " +
+               (found.status == scene::Status::tolerance_not_met
+                    ? tolerance_not_met(problem, *found.run, found.error_mm).message
+                    : found.run->engine.failure_message(found.status));
     return std::nullopt;
   }
   Solution solution;
@@ -162,7 +165,8 @@ bool PathStepper::judge(PathPlace& place) {
   const LoadedRod<3>& rod = equations_.rod();
   if (scene::is_conservative(rod.way().to))
     place.index = stability(rod, equations_.segments(), place.state.nodes, place.is_free).conjugate_points;
-  place.accuracy = equations_.accuracy(place.state);
+  place.accuracy =
+      equations_.accuracy(place.state, settings_.told_by_parameter ? place.tangent : equations_.zero_change());
   place.tip_position_B_mm = place.accuracy.tip_position_B_mm;
   return place.tip_position_B_mm.allFinite();
 }

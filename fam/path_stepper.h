@@ -41,6 +41,7 @@ class PathStepper {
     double unit = 1;                 // of it
     bool is_watched = false;         // short steps, so as to stay on a branch that only determinants tell
     double critical_tolerance = 1;   // relative, of critical values; or as places have, if that is finer
+    bool told_by_parameter = true;   // places are accurate at their parameter, and not only as those of some other
   };
   PathStepper(const scene::PathRequest& request, const Options& options, const Settings& settings);
 
@@ -50,7 +51,6 @@ class PathStepper {
 
   double unit() const { return settings_.unit; }
   double parameter(const PathPlace& place) const { return place.state.parameter; }
-  double tolerance_mm() const { return tolerance_mm_; }
   double inner(const PathChange& a, const PathChange& b) const { return equations_.inner(a, b); }
 
   enum class Newton { usual, tight };
@@ -91,7 +91,6 @@ class PathStepper {
   PathEquations& equations() { return equations_; }
   const PathEquations& equations() const { return equations_; }
   bool tendon_collapsed() const { return equations_.tendon_collapsed(); }
-  bool is_round() const { return is_round_; }
 
  private:
   std::optional<PathPlace> corrected(PathState guess, const PathBorder::Row& row, Newton newton);

@@ -72,20 +72,23 @@ void PathWalk::follow(PathPlace place, int branch, int multiplicity) {
   first_ = place;
   start_anew(place);
   length_ = first_length;
-  steps_ = 0;
+  steps_taken_.clear();
   add(place, Kind::start, branch, multiplicity);
   while (!ended_) {
     if (!stepper_.is_within_mesh(place) && !place.is_fork) {
       if (!stepper_.recentre(place)) return end(PathStatus::step_too_small, "the segments could not be cut anew");
-      start_anew(place);
+      go_back(place);
     }
     const double wanted = length_;
     const std::optional<PathPlace> next = take_step(place);
-    if (!next) return;
     const double length = length_;
+    if (!next) {
+      if (length == first_look) length_ = wanted;
+      continue;
+    }
     std::optional<std::vector<Event>> events = events_between(place, *next);
     if (events && (!hold_on_more_arcs(place, *events) || !stops_are_accurate(place, *events))) {
-      start_anew(place);
+      go_back(place);
       continue;
     }
     if (!events) {
@@ -94,6 +97,7 @@ void PathWalk::follow(PathPlace place, int branch, int multiplicity) {
       return end(PathStatus::step_too_small, "points on the path could not be located");
     }
     std::sort(events->begin(), events->end(), [](const Event& a, const Event& b) { return a.length < b.length; });
+    steps_taken_.push_back({path_.points.size(), stops_.size(), forks_.size(), travelled_});
     for (const Event& event : *events) {
       if (!emit(event, branch)) return;
     }
@@ -108,8 +112,40 @@ void PathWalk::follow(PathPlace place, int branch, int multiplicity) {
     travelled_ += length;
     if (length == first_look && wanted > length) length_ = wanted;
     watch(place);
-    ++steps_;
   }
+}
+
+// Whether the place, on other arcs now than when its point was added, lies beyond a critical point that is behind or
+// ahead of that.
+bool PathWalk::is_beyond_point(const PathPlace& place) const {
+  const PathPlace& point = places_.back().place;
+  if (place.is_fork || point.is_fork) return false;
+  if (place.index && point.index) return *place.index != *point.index;
+  return place.state.nodes.size() == point.state.nodes.size() &&
+         place.determinant.negative != point.determinant.negative;
+}
+
+// On other arcs. A critical point that these put behind the place has been missed: the steps beyond it are undone.
+void PathWalk::go_back(PathPlace& place) {
+  const long long arcs = stepper_.equations().rod().arc_count();
+  for (; is_beyond_point(place) && !steps_taken_.empty(); steps_taken_.pop_back()) {
+    const Before& before = steps_taken_.back();
+    if (places_[before.points - 1].place.is_fork) break;
+    path_.points.resize(before.points);
+    places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(before.points), places_.end());
+    stops_.resize(before.stops);
+    forks_.erase(forks_.begin() + static_cast<std::ptrdiff_t>(before.forks), forks_.end());
+    travelled_ = before.travelled;
+    place = stepper_.restored(places_.back());
+    while (stepper_.equations().rod().arc_count() < arcs && stepper_.refine(place)) continue;
+  }
+  if (is_beyond_point(place)) {  // the first one
+    const scene::PathPoint point = path_.points.back();
+    path_.points.pop_back();
+    places_.pop_back();
+    add(place, point.kind, point.branch, point.multiplicity);
+  }
+  start_anew(place);
 }
 
 // On another mesh: nothing is known of the path before.
@@ -134,7 +170,7 @@ double PathWalk::watched_length(const PathPlace& from) {
   return std::max(watch_.longest_step(travelled_), unwatched_length);
 }
 
-// A step of length_ or less, on a mesh that is fine enough for it.
+// A step of length_ or less. Empty: the path ends, or `from` lies on a finer mesh now, for it to be tried anew.
 std::optional<PathPlace> PathWalk::take_step(PathPlace& from) {
   for (;; length_ /= 2) {
     if (const long long arcs = stepper_.equations().arcs_marched(); arcs > settings_.most_arcs) {
@@ -144,7 +180,7 @@ std::optional<PathPlace> PathWalk::take_step(PathPlace& from) {
     if (length_ < smallest_length) {
       std::ostringstream message;
       message << (collapse_is_ahead() ? "a tendon's path has no length somewhere, at"
-                                    : "steps fell below the smallest at")
+                                      : "steps fell below the smallest at")
               << " the parameter " << from.state.parameter;
       end(PathStatus::step_too_small, message.str());
       return std::nullopt;
@@ -157,11 +193,9 @@ std::optional<PathPlace> PathWalk::take_step(PathPlace& from) {
     if (!next || !is_fit(from, *next) || !stepper_.judge(*next)) continue;
     if (!settings_.range.is_watched && !stepper_.is_small_change(from.state.parameter, next->state.parameter)) continue;
     if (stepper_.is_accurate(*next) || from.is_fork) return next;
-    if (!stepper_.refine_for(*next, from)) {
-      end(PathStatus::step_too_small, "no solution with twice the arcs");
-      return std::nullopt;
-    }
-    start_anew(from);
+    if (!stepper_.refine_for(*next, from)) end(PathStatus::step_too_small, "no solution with twice the arcs");
+    else go_back(from);
+    return std::nullopt;
   }
 }
 
@@ -176,6 +210,7 @@ bool PathWalk::emit(const Event& event, int branch) {
   std::optional<PathStatus> status = event.end;
   if (!status && settings_.ends_at && settings_.ends_at(event.place, event.kind)) status = PathStatus::reached;
   add(event.place, status ? Kind::end : event.kind, branch, event.multiplicity);
+  if (event.parameter_on_more_arcs) path_.points.back().parameter = *event.parameter_on_more_arcs;
   if (event.kind == Kind::fold) stops_.push_back(event.place.state.parameter);
   if (event.kind == Kind::branch && !event.is_arrival && static_cast<int>(forks_.size()) < settings_.branches)
     forks_.push_back({places_.back(), event.multiplicity});

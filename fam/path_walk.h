@@ -51,6 +51,7 @@ class PathWalk {
     // A path that another one crosses where its own parameter turns back: a pitchfork, come to from the side. Beyond
     // lies the path's mirror image.
     bool is_arrival = false;
+    std::optional<double> parameter_on_more_arcs = std::nullopt;  // of a branch point
   };
   using Test = std::function<double(const PathPlace&)>;
 
@@ -59,12 +60,14 @@ class PathWalk {
   void watch(const PathPlace& place);
   double watched_length(const PathPlace& from);
   std::optional<PathPlace> take_step(PathPlace& from);
+  bool is_beyond_point(const PathPlace& place) const;
+  void go_back(PathPlace& place);
   bool is_fit(const PathPlace& from, const PathPlace& next) const;
   std::optional<std::vector<Event>> events_between(const PathPlace& from, const PathPlace& next);
   void add_turning_points(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
   void add_stops(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
   void add_closure(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
-  bool hold_on_more_arcs(PathPlace& from, const std::vector<Event>& events);
+  bool hold_on_more_arcs(PathPlace& from, std::vector<Event>& events);
   bool stops_are_accurate(PathPlace& from, const std::vector<Event>& events);
   Event crossing(const PathPlace& from, const Event& near);
   std::optional<Event> located(const PathPlace& from, const PathPlace& next, Kind kind, const Test& test);
@@ -86,6 +89,12 @@ class PathWalk {
   };
   std::vector<Fork> forks_;
   PathPlace first_;  // of the branch that is followed
+  // What there was before each of its steps.
+  struct Before {
+    std::size_t points, stops, forks;
+    double travelled;
+  };
+  std::vector<Before> steps_taken_;
   PathChange curvature_;
   static constexpr double located_to = 1e-12;  // of the parameter
   double located_to_ = located_to;
@@ -93,7 +102,6 @@ class PathWalk {
   double travelled_ = 0;  // on this branch, as are the rest
   scene::BranchWatch watch_;
   int watched_places_ = 0;
-  int steps_ = 0;
   double collapsed_at_ = 0;  // how far the last step led that failed by a tendon without length
   bool ended_ = false;
 };

@@ -3,6 +3,7 @@
 #include "support.h"
 
 #include "fam/path.h"
+#include "fam/solve.h"
 
 #include <gtest/gtest.h>
 
@@ -106,6 +107,52 @@ TEST(PathBranches, CriticalLoadsAreWithinTheTolerance) {
     EXPECT_LT(off(tolerance, 1), tolerance);
     EXPECT_GT(off(tolerance, 1.05), 0.04);
   }
+}
+
+// A heavy column buckles at 7.8373474 EI / L^3 of weight a length (docs/theory.md), wherever the points of its path
+// lie: with few arcs a point just beyond counts as before, with more arcs as beyond. The second part: about its other
+// axis.
+TEST(PathBranches, NoneIsMissedBesideAPoint) {
+  scene::Stiffness stiffness = support::slender(1000, 5848);
+  stiffness.bending_Nmm2[1] = 2500;
+  stiffness.mass_per_length_kg_per_m = 0.04;
+  const double critical = 7.8373474389 * 1000 / (0.04e-2 * 1e6);
+  for (const double to : {64.25, 76.75, 77.0, 94.75, 95.0, 95.25, 96.0}) {
+    scene::PathRequest request;
+    request.scene = support::uniform_rod(100, stiffness, {scene::Gravity{{-10, 0, 0}}});
+    request.to = to;
+    const scene::Path path = fam::Path::follow(request).points();
+    const std::vector<PathPoint> met = critical_points(path, 0);
+    ASSERT_EQ(met.size(), 2u) << to;
+    EXPECT_NEAR(met[0].parameter, critical, 1e-3 * critical);  // measured 3e-6
+    EXPECT_NEAR(met[1].parameter, 2.5 * critical, 2.5e-3 * critical);
+    for (const PathPoint& point : path.points) {
+      const int beyond = (point.parameter > critical) + (point.parameter > 2.5 * critical);
+      EXPECT_TRUE(point.multiplicity > 0 || point.index == beyond) << point.parameter;
+    }
+    request.scene = support::stiffer(request.scene);
+    EXPECT_GT(critical_points(fam::Path::follow(request).points(), 0).front().parameter, 1.04 * critical);
+  }
+}
+
+// Where little more load moves a column far that is pushed aside.
+TEST(PathBranches, PointsAreAsAccurateAsASolve) {
+  constexpr double tolerance_mm = 1e-3;
+  scene::PathRequest request;
+  request.scene = support::uniform_rod(100, support::slender(1500, 1000),
+                                       {scene::Force{100, scene::Frame::fixed, {-1.252, 0.032, -0.04}}});
+  const scene::Path path = fam::Path::follow(request, {.tolerance_mm = tolerance_mm}).points();
+  double largest_mm = 0, twin_mm = 0;
+  for (const PathPoint& point : path.points) {
+    const auto error_mm = [&](const scene::Scene& of) {
+      return (fam::solve(of, {.tolerance_mm = 1e-7}).tip().position_B_mm - point.tip_position_B_mm).norm();
+    };
+    const scene::Scene there = scene::scene_at(request, point.parameter);
+    largest_mm = std::max(largest_mm, error_mm(there));
+    twin_mm = std::max(twin_mm, error_mm(support::stiffer(there)));
+  }
+  EXPECT_LT(largest_mm, tolerance_mm);  // measured
+  EXPECT_GT(twin_mm, 1);
 }
 
 }  // namespace

@@ -296,6 +296,15 @@ TEST(Path, StopsAreAsAccurateAsASolve) {
   EXPECT_GT(error_mm(support::stiffer(there)), 100 * tolerance_mm);
 }
 
+// No tolerance that round-off does not allow; the message says so and nothing else.
+TEST(Path, AStartThatMissesTheToleranceSaysSo) {
+  const scene::Scene rod =
+      support::uniform_rod(100, support::slender(1500, 1000), {scene::Force{100, scene::Frame::fixed, {0, 1, 0}}});
+  const scene::Path path = fam::Path::follow(load_path(rod, 0.5, 1), {.tolerance_mm = 1e-14}).points();
+  EXPECT_EQ(path.status, scene::PathStatus::not_started);
+  EXPECT_EQ(path.message.find("tolerance_not_met: estimated error "), 0u) << path.message;
+}
+
 TEST(Path, StopsAreMetOnce) {
   PathRequest request = load_path(tapered(), 2, 0);
   request.stop_at = {2, 0, 1.5, 1.5, 0.3};
