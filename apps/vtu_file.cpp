@@ -23,28 +23,9 @@ std::string data_array(const std::string& name, int components, const std::vecto
   return text + "\n        </DataArray>\n";
 }
 
-// The section at a place; where two meet that towards the clamp, whose wrench the station has.
-const scene::Section& section_at(const scene::Scene& scene, double s_mm) {
-  const double hair_mm = scene::same_place_relative * scene::length_mm(scene);
-  double end_mm = 0;
-  for (const scene::Section& section : scene.sections) {
-    end_mm += section.length_mm;
-    if (s_mm <= end_mm + hair_mm) return section;
-  }
-  return scene.sections.back();
-}
-
 double radius_mm(const scene::Scene& scene, const scene::Section& section) {
   const auto* circle = std::get_if<scene::CircularSection>(&section.cross_section);
   return circle ? circle->outer_diameter_mm / 2 : drawn_radius_over_L * scene::length_mm(scene);
-}
-
-// Torsion, bending about y and z: what the section has at rest and what the rod's own moment adds.
-Eigen::Vector3d curvature_per_mm(const scene::Section& section, const scene::Station& station) {
-  const scene::Stiffness stiffness = scene::stiffness_of(section);
-  const Eigen::Vector3d moment_S_Nmm = station.X_BS.rotation_BS.transpose() * station.moment_B_Nmm;
-  const Eigen::Vector3d stiffnesses_Nmm2(stiffness.torsion_Nmm2, stiffness.bending_Nmm2[0], stiffness.bending_Nmm2[1]);
-  return section.rest_curvature_per_mm + moment_S_Nmm.cwiseQuotient(stiffnesses_Nmm2);
 }
 
 struct PointData {
@@ -57,13 +38,13 @@ PointData point_data(const scene::Scene& scene, const scene::Equilibrium& result
     list.insert(list.end(), numbers.begin(), numbers.end());
   };
   for (const scene::Station& station : result.stations) {
-    const scene::Section& section = section_at(scene, station.s_mm);
+    const scene::Section& section = scene::section_at(scene, station.s_mm);
     data.s_mm.push_back(station.s_mm);
     data.radius_mm.push_back(radius_mm(scene, section));
     for (int row = 0; row < 3; ++row) append(data.rotation, Eigen::Vector3d(station.X_BS.rotation_BS.row(row)));
     append(data.force_N, station.force_B_N);
     append(data.moment_Nmm, station.moment_B_Nmm);
-    append(data.curvature_per_mm, curvature_per_mm(section, station));
+    append(data.curvature_per_mm, scene::curvature_per_mm(section, station.X_BS.rotation_BS.transpose() * station.moment_B_Nmm));
     append(data.position_mm, station.X_BS.position_B_mm);
   }
   return data;

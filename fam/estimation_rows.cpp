@@ -12,8 +12,17 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+scene::EstimationProblem validated(scene::EstimationProblem problem) {
+  scene::validate(problem);
+  return problem;
+}
+
+}  // namespace
+
 EstimationRows::EstimationRows(scene::EstimationProblem problem, const Options& options)
-    : given_(std::move(problem)),
+    : given_(validated(std::move(problem))),
       unit_(given_.unknowns.size()),
       prior_sd_(given_.unknowns.size()),
       values_(given_.unknowns.size()),

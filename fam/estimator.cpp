@@ -323,7 +323,7 @@ struct Estimator::Impl {
     else rows.put_into(result.problem, x);
     if (found)
       result.message =
-          result.fits ? "" : "the model does not fit the measurements: chi-squared is larger than one in 1000 would be";
+          result.fits ? "" : "no fit was found: chi-squared is larger than one in 1000 would be; the model, or a start far from the truth";
     return result;
   }
 };
@@ -339,7 +339,15 @@ const scene::EstimationProblem& Estimator::problem() const {
 }
 
 void Estimator::set_measurement(std::size_t scene, std::size_t measurement, const scene::Measurement& value) {
+  const auto& scenes = problem().scenes;
+  if (scene >= scenes.size() || measurement >= scenes[scene].measurements.size())
+    throw scene::SceneError("measurements: there is none to set at " + std::to_string(measurement) + " of scene " +
+                            std::to_string(scene));
   Measurement& kept = impl_->rows.measurement(scene, measurement);
+  static const std::string source = "estimation", path = "measurement";
+  if (value.value.index() != kept.value.index())
+    throw scene::SceneError(source + ": " + path + ": must be of the kind of the one before it");
+  scene::validate(value, scene::length_mm(scenes[scene].scene), source, path);
   if (!has_slopes_of(value, kept)) impl_->solved_at_x = false;
   kept = value;
 }

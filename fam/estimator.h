@@ -42,8 +42,8 @@ struct Estimate {
   bool converged() const { return status == scene::Status::converged; }
 };
 
-// Keeps its solvers and its last solution: the next estimate starts there. New measurements of the same kinds and
-// places come by set_measurement. Throws scene::SceneError on wrong input.
+// Keeps its solvers and its last solution: the next estimate starts there. New measurements of the same kinds
+// come by set_measurement. Throws scene::SceneError on wrong input.
 class Estimator {
  public:
   // Options as of solve(); without arcs and tolerance the model is solved within 0.03 of the smallest standard

@@ -16,25 +16,10 @@ using scene::Unknown;
 using Vector6 = Solver::Vector6;
 using Matrix63 = Solver::Matrix63;
 
-// The section at a place, that towards the clamp at a border.
-std::size_t section_at(const scene::Scene& scene, double s_mm) {
-  double end_mm = 0;
-  for (std::size_t i = 0; i + 1 < scene.sections.size(); ++i) {
-    end_mm += scene.sections[i].length_mm;
-    if (s_mm <= end_mm) return i;
-  }
-  return scene.sections.size() - 1;
-}
-
 // The total u of a solution.
 Vector3d strain_at(const Solver& solver, double s_mm) {
-  const scene::Scene& scene = solver.scene();
-  const scene::Section& section = scene.sections[section_at(scene, s_mm)];
-  const scene::Stiffness stiffness = scene::stiffness_of(section);
   const Vector3d moment_S_Nmm = solver.pose_at(s_mm).rotation_BS.transpose() * solver.wrench_at(s_mm).moment_Nmm;
-  return section.rest_curvature_per_mm +
-         moment_S_Nmm.cwiseQuotient(
-             Vector3d(stiffness.torsion_Nmm2, stiffness.bending_Nmm2[0], stiffness.bending_Nmm2[1]));
+  return scene::curvature_per_mm(scene::section_at(solver.scene(), s_mm), moment_S_Nmm);
 }
 
 // What the six rows of pose, strain and wrench are by an unknown.

@@ -19,7 +19,7 @@ Json list(const Eigen::Matrix3d& matrix) {
   return rows;
 }
 
-std::string text(const std::variant<bool, int, double, std::string>& value) {
+std::string fact_text(const std::variant<bool, int, double, std::string>& value) {
   return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
 }
 
@@ -100,7 +100,7 @@ std::string to_text(const Equilibrium& result, const std::string& method, double
   report += fmt::format("  {:<24}{:>12}\n", "estimated error, mm", error);
   if (result.stable) report += fmt::format("  {:<24}{}\n", "equilibrium", *result.stable ? "stable" : "unstable");
   report += "\n  model\n";
-  for (const auto& [key, value] : result.model) report += fmt::format("    {:<18}{}\n", key, text(value));
+  for (const auto& [key, value] : result.model) report += fmt::format("    {:<18}{}\n", key, fact_text(value));
   return report;
 }
 

@@ -60,6 +60,13 @@ struct EstimationProblem {
   std::vector<Unknown> unknowns;
 };
 
+// Throws SceneError at the first rule of the estimation format that the values break. Paths are those of a file with
+// one scene or, `in_list` (of several unless told), with "scenes".
+void validate(const EstimationProblem& problem, const std::string& source = "estimation",
+              std::optional<bool> in_list = std::nullopt);
+// Of one measurement, on a rod of this length; `path` where it stands.
+void validate(const Measurement& measurement, double length_mm, const std::string& source, const std::string& path);
+
 // "loads[0].x, N", "sections[1].bending_factor"; with several scenes the load's scene before it.
 std::string name_of(const Unknown& unknown, const EstimationProblem& problem);
 

@@ -3,10 +3,6 @@
 #include "scene/json_node.h"
 #include "scene/load_visitor.h"
 
-#include <Eigen/LU>
-
-#include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace scene {
@@ -14,21 +10,8 @@ namespace {
 
 using Kind = Unknown::Kind;
 
-constexpr double rotation_tolerance = 1e-6;  // of R^T R against the identity: files print six digits and more
-
-double sd_of(const JsonNode& node, const char* key) {
-  const JsonNode sd = node.at(key);
-  const double value = sd.number();
-  if (!(value > 0)) sd.refuse("a standard deviation must be > 0");
-  return value;
-}
-
 double place_of(const JsonNode& node, double length_mm) {
-  if (node.is_tip()) return length_mm;
-  const double s_mm = node.number("must be \"tip\" or a number in mm");
-  if (!(s_mm >= 0 && s_mm <= length_mm * (1 + same_place_relative)))
-    node.refuse("must be on the rod, 0 ... " + dump(length_mm) + " mm");
-  return std::min(s_mm, length_mm);
+  return node.is_tip() ? length_mm : node.number("must be \"tip\" or a number in mm");
 }
 
 Eigen::Matrix3d rotation_of(const JsonNode& node) {
@@ -36,9 +19,6 @@ Eigen::Matrix3d rotation_of(const JsonNode& node) {
   if (rows.size() != 3) node.refuse("must be 3 rows of 3 numbers");
   Eigen::Matrix3d rotation;
   for (int i = 0; i < 3; ++i) rotation.row(i) = rows[static_cast<std::size_t>(i)].vector<3>();
-  const double off = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(off <= rotation_tolerance) || !(rotation.determinant() > 0))
-    node.refuse("must be a rotation: R^T R = 1 within 1e-6, det R = 1");
   return rotation;
 }
 
@@ -50,18 +30,18 @@ Measurement measurement_of(const JsonNode& node, double length_mm) {
   if (name == "base_wrench") {
     node.allow_keys({"kind", "force_N", "moment_Nmm", "sd_N", "sd_Nmm"});
     const Wrench wrench{node.at("force_N").vector<3>(), node.at("moment_Nmm").vector<3>()};
-    measurement.value = BaseWrenchMeasurement{wrench, sd_of(node, "sd_N"), sd_of(node, "sd_Nmm")};
+    measurement.value = BaseWrenchMeasurement{wrench, node.at("sd_N").number(), node.at("sd_Nmm").number()};
     return measurement;
   }
   if (name == "position") {
     node.allow_keys({"kind", "at", "value_mm", "sd_mm"});
-    measurement.value = PositionMeasurement{node.at("value_mm").vector<3>(), sd_of(node, "sd_mm")};
+    measurement.value = PositionMeasurement{node.at("value_mm").vector<3>(), node.at("sd_mm").number()};
   } else if (name == "rotation") {
     node.allow_keys({"kind", "at", "value", "sd_rad"});
-    measurement.value = RotationMeasurement{rotation_of(node.at("value")), sd_of(node, "sd_rad")};
+    measurement.value = RotationMeasurement{rotation_of(node.at("value")), node.at("sd_rad").number()};
   } else if (name == "curvature") {
     node.allow_keys({"kind", "at", "value_per_mm", "sd_per_mm"});
-    measurement.value = CurvatureMeasurement{node.at("value_per_mm").vector<2>(), sd_of(node, "sd_per_mm")};
+    measurement.value = CurvatureMeasurement{node.at("value_per_mm").vector<2>(), node.at("sd_per_mm").number()};
   } else {
     kind.refuse("must be position, rotation, curvature or base_wrench");
   }
@@ -127,21 +107,10 @@ Unknown unknown_of(const JsonNode& node, const EstimationProblem& problem) {
   if (node.has("load") == node.has("section")) node.refuse("must name either a load or a section");
   Unknown unknown = node.has("load") ? load_unknown(node, problem) : section_unknown(node, problem);
   unknown.prior_mean = value_in(problem, unknown);
-  if (node.has("prior_sd")) unknown.prior_sd = sd_of(node, "prior_sd");
+  if (node.has("prior_sd")) unknown.prior_sd = node.at("prior_sd").number();
   if (node.has("prior_mean")) {
     if (!unknown.prior_sd) node.at("prior_mean").refuse("needs a prior_sd");
     unknown.prior_mean = node.at("prior_mean").number();
-  }
-  const bool is_factor = unknown.kind == Kind::bending_factor || unknown.kind == Kind::torsion_factor;
-  if (is_factor && !(unknown.prior_mean > 0)) node.at("prior_mean").refuse("a factor must be > 0");
-  if (unknown.kind == Kind::place) {
-    const double length = length_mm(problem.scenes[unknown.scene].scene);
-    if (!(unknown.prior_mean >= 0 && unknown.prior_mean <= length))
-      node.at("prior_mean").refuse("must be on the rod, 0 ... " + dump(length) + " mm");
-  }
-  for (const Unknown& other : problem.unknowns) {
-    const auto key = [](const Unknown& u) { return std::tuple(u.kind, u.scene, u.index, u.component); };
-    if (key(other) == key(unknown)) node.refuse("is unknown already: " + name_of(unknown, problem));
   }
   return unknown;
 }
@@ -149,15 +118,9 @@ Unknown unknown_of(const JsonNode& node, const EstimationProblem& problem) {
 void add_scene(EstimationProblem& problem, const JsonNode& node, const JsonNode& measurements,
                const std::string& source, const std::string& path) {
   MeasuredScene measured{scene_of(node), {}};
-  validate(measured.scene, source, path);
+  validate(measured.scene, source, path);  // before its length and its loads are asked for
   const double length = length_mm(measured.scene);
   for (const JsonNode& each : measurements.items()) measured.measurements.push_back(measurement_of(each, length));
-  if (measured.measurements.empty()) measurements.refuse("must hold a measurement");
-  if (!problem.scenes.empty()) {
-    const Scene& first = problem.scenes.front().scene;
-    if (measured.scene.sections.size() != first.sections.size())
-      node.refuse("must have the sections of the first scene: the rod is one");
-  }
   problem.scenes.push_back(std::move(measured));
 }
 
@@ -184,7 +147,7 @@ EstimationProblem read_estimation(std::istream& input, const std::string& source
   }
   const JsonNode unknowns = root.at("unknowns");
   for (const JsonNode& each : unknowns.items()) problem.unknowns.push_back(unknown_of(each, problem));
-  if (problem.unknowns.empty()) unknowns.refuse("must hold an unknown");
+  validate(problem, source, root.has("scenes"));
   return problem;
 }
 

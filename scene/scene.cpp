@@ -1,25 +1,12 @@
 #include "scene/scene.h"
+#include "scene/text.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <set>
 
 namespace scene {
 namespace {
-
-std::string text(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  return {buffer, end};
-}
-
-template <class Vector>
-std::string text(const Eigen::MatrixBase<Vector>& values) {
-  std::string list = "[";
-  for (int i = 0; i < values.size(); ++i) list += (i ? ", " : "") + text(static_cast<double>(values[i]));
-  return list + "]";
-}
 
 // Checks one scene; each check names the JSON path of the value it looks at.
 class Checker {
@@ -151,6 +138,16 @@ double length_mm(const Scene& scene) {
   double length = 0;
   for (const Section& section : scene.sections) length += section.length_mm;
   return length;
+}
+
+const Section& section_at(const Scene& scene, double s_mm) {
+  const double hair_mm = same_place_relative * length_mm(scene);
+  double end_mm = 0;
+  for (const Section& section : scene.sections) {
+    end_mm += section.length_mm;
+    if (s_mm <= end_mm + hair_mm) return section;
+  }
+  return scene.sections.back();
 }
 
 void validate(const Scene& scene, const std::string& source, const std::string& path) {

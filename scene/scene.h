@@ -35,6 +35,9 @@ constexpr int max_tendon_offsets = 32;  // different ones
 
 double length_mm(const Scene& scene);
 
+// The section at a place; where two meet that towards the clamp.
+const Section& section_at(const Scene& scene, double s_mm);
+
 // Throws SceneError at the first rule of the scene format that the values break; `source` names the scene in the
 // message, usually its file, and `path` where it stands there.
 void validate(const Scene& scene, const std::string& source = "scene", const std::string& path = "");

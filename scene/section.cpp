@@ -30,4 +30,10 @@ Stiffness stiffness_of(const Section& section) {
   return std::get<Stiffness>(section.cross_section);
 }
 
+Eigen::Vector3d curvature_per_mm(const Section& section, const Eigen::Vector3d& moment_S_Nmm) {
+  const Stiffness stiffness = stiffness_of(section);
+  const Eigen::Vector3d stiffnesses_Nmm2(stiffness.torsion_Nmm2, stiffness.bending_Nmm2[0], stiffness.bending_Nmm2[1]);
+  return section.rest_curvature_per_mm + moment_S_Nmm.cwiseQuotient(stiffnesses_Nmm2);
+}
+
 }  // namespace scene

@@ -42,4 +42,7 @@ Stiffness stiffness_of(const CircularSection& section);
 // The section's stiffness, however it was given.
 Stiffness stiffness_of(const Section& section);
 
+// Torsion, bending about y and z: what the section has at rest and what the rod's own moment adds.
+Eigen::Vector3d curvature_per_mm(const Section& section, const Eigen::Vector3d& moment_S_Nmm);
+
 }  // namespace scene

@@ -1,17 +1,12 @@
 #include "scene/load_visitor.h"
 #include "scene/path.h"
+#include "scene/text.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace scene {
 namespace {
-
-std::string number_text(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
 
 // Checks one request; each check names the JSON path of the value that it looks at.
 class PathChecker {
@@ -31,19 +26,19 @@ class PathChecker {
     for (std::size_t i = 0; i < request_.stop_at.size(); ++i) {
       const double stop = request_.stop_at[i];
       require(stop >= low && stop <= high, "stop_at[" + std::to_string(i) + "]", stop,
-              "must lie between " + number_text(low) + " and " + number_text(high));
+              "must lie between " + text(low) + " and " + text(high));
     }
     require(request_.branches >= 0 && request_.branches <= max_path_branches, "branches", request_.branches,
             "must be 0 to " + std::to_string(max_path_branches));
     if (request_.largest_step) {
       const double step = *request_.largest_step, least = (high - low) / max_path_steps;
-      require(std::isfinite(step) && step > least, "largest_step", step, "must be > " + number_text(least));
+      require(std::isfinite(step) && step > least, "largest_step", step, "must be > " + text(least));
     }
   }
 
  private:
   void require(bool rule_holds, const std::string& key, double value, const std::string& rule) const {
-    if (!rule_holds) throw SceneError(source_ + ": path." + key + " = " + number_text(value) + ": " + rule);
+    if (!rule_holds) throw SceneError(source_ + ": path." + key + " = " + text(value) + ": " + rule);
   }
   void finite(const std::string& key, double value) const {
     require(std::isfinite(value), key, value, "must be finite");

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 #include <sstream>
 
@@ -338,6 +339,53 @@ TEST(Estimator, WrongProblemsAreRefusedInOneLine) {
     EXPECT_NE(line.find(rule), std::string::npos) << line;
     EXPECT_EQ(line.find('\n'), std::string::npos);
   }
+}
+
+std::string refusal_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const scene::SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// What a file may not say, a problem made in C++ may not either; nor may a new measurement be another one.
+TEST(Estimator, WrongValuesAreRefusedInCode) {
+  const scene::Scene rod = rod_under({force(L_mm, {0, 0.1, 0})});
+  const scene::Measurement tip{L_mm, scene::PositionMeasurement{{39, 5, 0}, 0.1}};
+  const EstimationProblem good{{{rod, {tip}}, {rod, {tip}}}, components(0, {1}, rod)};
+  EXPECT_EQ(refusal_of([&] { scene::validate(good); }), "");
+  const auto refused = [&](const std::function<void(EstimationProblem&)>& spoil) {
+    EstimationProblem bad = good;
+    spoil(bad);
+    return refusal_of([&] { Estimator estimator(bad); });
+  };
+  EXPECT_EQ(
+      refused([](auto& p) { p.scenes[1].scene.sections[0].length_mm = 50; }),
+      "estimation: scenes[1].scene.rod.sections[0] = another one: must be that of the first scene: the rod is one");
+  EXPECT_EQ(refused([](auto& p) { p.unknowns[0].index = 1; }),
+            "estimation: unknowns[0].load = 1: there are 1 loads, counted from 0");
+  EXPECT_EQ(refused([](auto& p) { p.unknowns[0].component = 3; }),
+            "estimation: unknowns[0].component = 3: the component of a force must be below 3");
+  EXPECT_EQ(refused([](auto& p) { p.unknowns[0].prior_sd = -1; }),
+            "estimation: unknowns[0].prior_sd = -1: a standard deviation must be > 0");
+  EXPECT_EQ(refused([](auto& p) { p.scenes[0].measurements[0].s_mm = 41; }),
+            "estimation: scenes[0].measurements[0].at = 41: must be on the rod, 0 ... 40 mm");
+
+  Estimator estimator(good);
+  EXPECT_EQ(refusal_of([&] { estimator.set_measurement(1, 0, tip); }), "");
+  EXPECT_NE(refusal_of([&] { estimator.set_measurement(2, 0, tip); }), "");
+  EXPECT_NE(refusal_of([&] { estimator.set_measurement(0, 1, tip); }), "");
+  EXPECT_NE(refusal_of([&] { estimator.set_measurement(0, 0, {41, tip.value}); }), "");
+  EXPECT_NE(refusal_of([&] {
+              estimator.set_measurement(0, 0, {L_mm, scene::RotationMeasurement{Eigen::Matrix3d::Identity(), 0.1}});
+            }),
+            "");
+  EXPECT_EQ(refusal_of([&] {
+              estimator.set_measurement(0, 0, {L_mm, scene::PositionMeasurement{{39, 5, 0}, 0}});
+            }),
+            "estimation: measurement.sd_mm = 0: a standard deviation must be > 0");
 }
 
 // A force at 6 mm of 40, looked for from 36: the first minimum is another one, whose chi-squared tells; another start

@@ -12,6 +12,19 @@ namespace {
 using scene::Frame;
 using support::slender;
 
+// 10.1 + 20.2 is a hair less than 30.3, where the border was meant to be.
+TEST(Span, APlaceOnABorderIsTheSectionsTowardsTheClamp) {
+  scene::Scene scene = support::uniform_rod(10.1, slender(1, 1), {});
+  for (const double length_mm : {20.2, 10.0}) {
+    scene.sections.push_back(scene.sections[0]);
+    scene.sections.back().length_mm = length_mm;
+  }
+  EXPECT_EQ(&scene::section_at(scene, 0), &scene.sections[0]);
+  EXPECT_EQ(&scene::section_at(scene, 30.3), &scene.sections[1]);
+  EXPECT_EQ(&scene::section_at(scene, 30.3 + 1e-9), &scene.sections[2]);
+  EXPECT_EQ(&scene::section_at(scene, 41), &scene.sections[2]);
+}
+
 TEST(Span, CutsAtSectionsLoadsAndEndsOnce) {
   scene::Scene scene = support::uniform_rod(30, slender(1, 1), {});
   scene.sections.push_back(scene.sections[0]);
