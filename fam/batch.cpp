@@ -3,10 +3,9 @@
 #include "fam/batch_rows.h"
 
 #include "scene/load_visitor.h"
+#include "scene/text.h"
 
 #include <atomic>
-#include <charconv>
-#include <cmath>
 #include <future>
 #include <limits>
 #include <thread>
@@ -16,11 +15,7 @@ namespace {
 
 using scene::Load;
 using scene::SceneError;
-
-std::string text(double value) {
-  char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-}
+using scene::text;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& value, const std::string& rule) {
   throw SceneError(path + " = " + value + ": " + rule);

@@ -44,7 +44,7 @@ BatchRows::BatchRows(const scene::Scene& scene, std::span<const BatchColumn> col
       length_mm_(scene::length_mm(scene)),
       lanes_(scene, columns, options),
       row_scene_(scene) {
-  tolerance_mm_ = options.tolerance_mm > 0 ? options.tolerance_mm : 1e-3 * length_mm_;
+  tolerance_mm_ = tolerance_mm(options, length_mm_);
   for (const BatchColumn& column : columns) changing_.insert(column.load);
 }
 
@@ -103,6 +103,7 @@ void BatchRows::solve_in_lanes(const Kind& kind, const Rows& rows) {
     return;
   }
   LaneRods& rods = lanes_.set(kind.model, kind.arcs_per_span);
+  rods.row_stride = values_.outerStride();
   rods.estimate = options_.estimate_error;
   rods.longest_load_length = longest_load_length;
   rods.largest_swing_rad =

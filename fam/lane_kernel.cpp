@@ -94,7 +94,7 @@ class Rods {
     for (const LaneTerm& term : rods_.terms) {
       P value;
       for (int lane = 0; lane < FAM_LANES; ++lane) {
-        value.value[lane] = values[rows[lane < count ? lane : 0] * rods_.columns + term.column];
+        value.value[lane] = values[rows[lane < count ? lane : 0] * rods_.row_stride + term.column];
       }
       numbers_[static_cast<std::size_t>(rods_.numbers * term.span + term.number)] += P(term.slope) * value;
     }

@@ -48,10 +48,11 @@ struct LaneTerm {
 struct LaneRods {
   std::span<const LaneSpan> spans;
   std::span<const LaneTerm> terms;
-  int arc_count, columns, numbers;  // numbers: of a span
+  int arc_count, numbers;  // numbers: of a span
   bool planar, march, reissner, round, conservative;
   double length_mm;
   double rotation_BP[9], rest_tip_rotation_SB[9];  // by rows
+  std::ptrdiff_t row_stride;
   bool estimate;
   double longest_load_length, largest_swing_rad;
 };
@@ -62,7 +63,7 @@ struct LaneTip {
   bool solved;
 };
 
-// Solves the named rows of `values` (row-major, `columns` a row), each into its own tip.
+// Solves the named rows of `values` (row-major, rods.row_stride from one to the next), each into its own tip.
 using LaneKernel = void (*)(const LaneRods& rods, const double* values, std::span<const std::ptrdiff_t> rows,
                             LaneTip* tips);
 struct LaneUnit {

@@ -181,7 +181,6 @@ LaneRods& LaneProblem::set(RodModel model, std::span<const int> arcs_per_span) {
   rods_.spans = lane_spans_;
   rods_.terms = terms_;
   rods_.arc_count = std::accumulate(arcs_per_span.begin(), arcs_per_span.end(), 0);
-  rods_.columns = static_cast<int>(columns_.size());
   rods_.planar = is_planar(model);
   rods_.march = choice_.march;
   rods_.reissner = model == RodModel::reissner;

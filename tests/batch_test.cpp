@@ -71,6 +71,16 @@ TEST(Batch, EachRowIsWhatASolverGives) {
   EXPECT_GT(spread_mm, 1);  // the values did arrive
 }
 
+// A view of some columns of a wider matrix, whose rows lie farther apart; small loads, which lanes solve.
+TEST(Batch, ValuesMayBeAPartOfAWiderMatrix) {
+  const RowMajorMatrix wide = random_values(20) / 10;
+  const std::span<const BatchColumn> two(columns.data() + 3, 2);
+  const fam::BatchResult of_part = fam::solve_batch(catheter(), two, wide.rightCols(2));
+  const fam::BatchResult of_copy = fam::solve_batch(catheter(), two, RowMajorMatrix(wide.rightCols(2)));
+  EXPECT_EQ(of_part.position_mm, of_copy.position_mm);
+  EXPECT_EQ(of_part.error_estimate_mm, of_copy.error_estimate_mm);
+}
+
 TEST(Batch, OrderAndCompanyOfTheRowsDoNotMatter) {
   const RowMajorMatrix values = random_values(20);
   const RowMajorMatrix reversed = values.colwise().reverse();

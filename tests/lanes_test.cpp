@@ -66,6 +66,7 @@ int solved_in_lanes(const LaneUnit& unit, const scene::Scene& scene, const Rods&
   const fam::RodModel model = problem.choice().rod.model;
   if (!problem.is_solvable(model)) return 0;
   fam::LaneRods& lanes = problem.set(model, scene::cells_per_span(problem.spans(), options.arcs));
+  lanes.row_stride = rods.values.outerStride();
   lanes.estimate = true;
   lanes.longest_load_length = fam::longest_load_length;
   lanes.largest_swing_rad = fam::longest_swing_rad;
