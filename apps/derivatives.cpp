@@ -49,7 +49,7 @@ ordered_json derivatives(const fam::Solver& solver) {
 
 // Of a solver that is asked for a tenth of the tolerance, or less until its own estimate meets it; null: none does.
 ordered_json derivatives(const scene::Scene& scene, fam::Options options) {
-  const double wanted_mm = options.tolerance_mm > 0 ? options.tolerance_mm : 1e-3 * scene::length_mm(scene);
+  const double wanted_mm = fam::tolerance_mm(options, scene::length_mm(scene));
   options.reserved_arcs = 1 << 14;
   for (options.tolerance_mm = wanted_mm / 10; options.tolerance_mm > 1e-5 * wanted_mm; options.tolerance_mm /= 10) {
     auto made = fam::Solver::make(scene, options);

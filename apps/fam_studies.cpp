@@ -66,8 +66,9 @@ void add_method_options(CLI::App* solve, apps::SolveArguments& arguments, Method
 
 // An option of another method would change nothing, and say nothing.
 void refuse_options_of_others(const CLI::App& solve, const std::string& method) {
-  std::set<std::string> taken = {"scene", "--model", "--format", "--svg", "--method"};
-  if (method == "fam") taken.insert({"--tolerance-mm", "--arcs", "--law", "--twist-order"});
+  std::set<std::string> taken = {"scene", "--model", "--format", "--svg", "--vtu", "--method"};
+  if (method == "fam")
+    taken.insert({"--tolerance-mm", "--arcs", "--law", "--twist-order", "--derivatives", "--after-snap"});
   else if (method == "fem") taken.insert({"--elements", "--order"});
   else taken.insert("--" + studies::method_row(method).counts + "s");
   for (const CLI::Option* option : solve.get_options()) {

@@ -48,4 +48,9 @@ struct Options {
   int threads = 1;
 };
 
+// What is asked of a rod of this length.
+inline double tolerance_mm(const Options& options, double length_mm) {
+  return options.tolerance_mm > 0 ? options.tolerance_mm : 1e-3 * length_mm;
+}
+
 }  // namespace fam

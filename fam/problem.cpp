@@ -67,13 +67,15 @@ void validate(const Options& options) {
   if (!(tolerance_mm >= 0 && std::isfinite(tolerance_mm)))
     refuse("tolerance_mm", tolerance_mm, "must be finite and >= 0");
   if (options.arcs < 0) refuse("arcs", options.arcs, "must be >= 0");
+  if (options.arcs > max_arcs) refuse("arcs", options.arcs, "must be <= 1000000");
+  if (options.reserved_arcs < 0) refuse("reserved_arcs", options.reserved_arcs, "must be >= 0");
 }
 
 void Problem::take(const scene::Scene& scene, const Options& options) {
   validate(options);
   scene_ = scene;
   options_ = options;
-  tolerance_mm_ = options.tolerance_mm > 0 ? options.tolerance_mm : 1e-3 * scene::length_mm(scene);
+  tolerance_mm_ = fam::tolerance_mm(options, scene::length_mm(scene));
 }
 
 void Problem::set(const scene::Scene& scene, const Options& options) {

@@ -41,7 +41,6 @@ class Problem {
     return choice_.round ? std::span<const scene::Span>(solved_.to) : scene_spans();
   }
   std::span<const std::size_t> section_of_span() const { return cutter_.sections(); }
-  std::size_t span_ending_at(double place_mm) const { return cutter_.nearest_cut(place_mm) - 1; }
   // Under the loads that the way starts from.
   std::span<const scene::Span> spans_before() const { return given_.from; }
   // As they are solved.

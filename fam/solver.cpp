@@ -57,15 +57,15 @@ Solver::Impl::Impl(const scene::Scene& wanted, const Options& wanted_options)
 
 // Shear and stretch are not left out where derivatives tell them: under no load they move no tip, and yet give way.
 void Solver::Impl::choose_model() {
-  const double tolerance_mm = options.tolerance_mm > 0 ? options.tolerance_mm : 1e-3 * scene::length_mm(scene);
+  const double length_mm = scene::length_mm(scene);
   options.model = model_asked_for;
   if (model_asked_for != RodModel::automatic || !facts_of(chosen(options.law)).coupled) return;
-  if (compliance_left_out(scene) > left_out_share * tolerance_mm / scene::length_mm(scene))
+  if (compliance_left_out(scene) > left_out_share * tolerance_mm(options, length_mm) / length_mm)
     options.model = RodModel::reissner;
 }
 
 void Solver::Impl::reserve() {
-  const int asked_for = 2 * std::min(options.arcs, max_arcs);  // the estimate's finer run included
+  const int asked_for = 2 * options.arcs;  // the estimate's finer run included
   most_arcs = std::max(most_unreserved_arcs, asked_for);
   if (options.reserved_arcs == 0) return;
   Room room{static_cast<std::size_t>(options.reserved_arcs), scene.sections.size(), 0};

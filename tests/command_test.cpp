@@ -115,6 +115,17 @@ TEST(Command, WrongUsageIsExitStatusTwo) {
   EXPECT_EQ(run(fam, "--help").exit_status, 0);
 }
 
+TEST(Command, BothSolveWithTheSameOptions) {
+  const std::string scene = case_file("study1/P1_fixed"), vtu = (scratch() / "both.vtu").string();
+  for (const std::string& options :
+       {std::string(" --after-snap"), std::string(" --format json --derivatives"), " --vtu " + vtu}) {
+    const Outcome one = run(fam, "solve " + scene + options), other = run(fam_studies, "solve " + scene + options);
+    EXPECT_EQ(one.exit_status, 0) << options;
+    EXPECT_EQ(other.exit_status, 0) << options << other.err;
+  }
+  EXPECT_EQ(run(fam_studies, "solve " + scene + " --method exact --vtu " + vtu).exit_status, 0);
+}
+
 TEST(Command, WrongUsageNamesWhatIsWrong) {
   const std::string scene = case_file("study1/P1_follower");
   const auto refused = [](const std::string& command, const std::string& arguments) {

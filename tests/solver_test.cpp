@@ -463,6 +463,8 @@ TEST(Solver, RefusesWrongOptions) {
   EXPECT_EQ(refusal({.tolerance_mm = std::nan("")}), "options.tolerance_mm = nan: must be finite and >= 0");
   EXPECT_EQ(refusal({.tolerance_mm = -1}), "options.tolerance_mm = -1: must be finite and >= 0");
   EXPECT_EQ(refusal({.arcs = -3}), "options.arcs = -3: must be >= 0");
+  EXPECT_EQ(refusal({.arcs = 2'000'000}), "options.arcs = 2e+06: must be <= 1000000");
+  EXPECT_EQ(refusal({.reserved_arcs = -1}), "options.reserved_arcs = -1: must be >= 0");
   EXPECT_EQ(refusal({}), "accepted");
 }
 

@@ -4,8 +4,8 @@
 
 #include <atomic>
 #include <cmath>
+#include <future>
 #include <mutex>
-#include <thread>
 
 #include <unistd.h>
 
@@ -63,9 +63,9 @@ void in_parallel(std::uint64_t count, const std::string& name, Progress::Style s
       progress.at(i, "scenes");
     }
   };
-  std::thread other(take);
+  std::future<void> other = std::async(std::launch::async, take);
   take();
-  other.join();
+  other.get();
 }
 
 }  // namespace studies

@@ -32,12 +32,13 @@ fam::Options options_of(const SweepArguments& arguments) {
 std::string line_of(const Sweep& sweep, std::uint64_t point, const double* values, const fam::Options& options) {
   std::string line = std::to_string(point);
   for (std::size_t k = 0; k < sweep.variables.size(); ++k) line += fmt::format(",{:.10g}", values[k]);
-  scene::Equilibrium answer;
+  scene::Scene scene;
   try {
-    answer = fam::solve(sweep.scene_with(values), options);
+    scene = sweep.scene_with(values);
   } catch (const scene::SceneError&) {  // the tail of a normal distribution
     return line + ",no_valid_scene,,,,,,\n";
   }
+  const scene::Equilibrium answer = fam::solve(scene, options);
   if (!answer.converged()) return line + fmt::format(",{},,,,,,\n", scene::name(answer.status));
   const Eigen::Vector3d tip = answer.tip().position_B_mm;
   const char* stable = !answer.stable ? "" : *answer.stable ? "yes" : "no";
@@ -90,6 +91,7 @@ CLI::App* add_sweep_command(CLI::App& app, SweepArguments& arguments) {
 int run_sweep(const SweepArguments& arguments, Progress::Style style) {
   const Sweep sweep = read_sweep_file(arguments.file);
   const std::vector<double> samples = sweep.samples();
+  if (!std::isfinite(arguments.tolerance_mm)) throw scene::SceneError("--tolerance-mm: must be a number > 0");
   const fam::Options options = options_of(arguments);
   const CampaignPlan plan{"sweep", identity_of(sweep, samples, arguments.tolerance_mm), sweep.points, arguments.chunk,
                           arguments.output};

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <cmath>
 #include <set>
 
 namespace studies {
@@ -158,7 +157,7 @@ Sweep read_sweep(std::istream& input, const std::string& source) {
 
 Sweep read_sweep_file(const std::string& path) {
   Sweep sweep;
-  scene::with_file(path, "a sweep file",
+  scene::with_file(path, "sweep",
                    [&](std::istream& input, const std::string& source) { sweep = read_sweep(input, source); });
   return sweep;
 }
