@@ -4,7 +4,6 @@
 #include "fam/solution.h"
 
 #include <limits>
-#include <string>
 
 namespace fam {
 

@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include <span>
 #include <string>
 #include <vector>
 

@@ -1,7 +1,5 @@
 #include "fam/lanes.h"
 
-#include <algorithm>
-
 namespace fam {
 
 #define FAM_DECLARE_LANES(unit)                                                                                      \

@@ -30,7 +30,6 @@ const Kind* load_of(const scene::Scene& scene, std::size_t load) {
 void Response::reserve(std::size_t arcs, std::size_t spans, std::size_t tendons) {
   arcs_.resize(arcs);
   first_arcs_.reserve(spans + 1);
-  section_of_span_.reserve(spans);
   tendons_.reserve(tendons);
   for (Sweep& sweep : sweeps_) sweep.nodes.resize(arcs);
 }

@@ -26,6 +26,7 @@ class Response {
   struct Solution {
     const scene::Scene* scene;
     std::span<const scene::Span> spans;
+    std::span<const std::size_t> section_of_span;
     std::span<const int> arcs_per_span;
     std::span<const SectionPose> poses;                // of the arcs' ends, clamp to tip: one more than arcs
     std::span<const SectionWrench> distal_wrenches_S;  // total, at the arcs' distal ends, loads there included
@@ -106,7 +107,6 @@ class Response {
   };
 
   void prepare();  // for the solution, when the first is asked for
-  void name_spans();
   void factorise_span(std::size_t span);
   template <int N>
   ArcVariation<N> vary(const ArcForces<double, 3>* forces, const SectionWrench& wrench) const;
@@ -151,7 +151,7 @@ class Response {
   bool prepared_ = false;
   bool arc_loads_are_asked_for_ = false;  // distributed ones and tensions, at this solution or one before
   std::vector<Arc> arcs_;
-  std::vector<std::size_t> first_arcs_, section_of_span_;  // one more first arc than spans
+  std::vector<std::size_t> first_arcs_;  // of the spans, and their number
   std::array<Sweep, 8> sweeps_;
   unsigned long asked_ = 0;
   BasicArcConstants<3> constants_;         // of the span in hand, with its tendons

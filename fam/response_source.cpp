@@ -55,7 +55,7 @@ bool Response::acts_in(const Source& source, std::size_t i) const {
   const double middle_mm = (span.start_mm + span.end_mm) / 2;
   switch (source.kind) {
     case Kind::rest_curvature:
-    case Kind::stiffness: return section_of_span_[i] == source.index;
+    case Kind::stiffness: return solution_.section_of_span[i] == source.index;
     case Kind::tension: {
       const TendonArms arms = tendon_arms(source, i);
       return arms[0] || arms[1] || arms[2];

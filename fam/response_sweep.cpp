@@ -64,29 +64,14 @@ Matrix3d crossed(const Vector3d& a, const B& b) {
 void Response::prepare() {
   if (prepared_) return;
   prepared_ = true;
-  name_spans();
+  first_arcs_.assign(1, 0);
+  for (const int arcs : solution_.arcs_per_span)
+    first_arcs_.push_back(first_arcs_.back() + static_cast<std::size_t>(arcs));
   if (arcs_.size() < first_arcs_.back()) {  // more than were reserved
     arcs_.resize(first_arcs_.back());
     for (Sweep& sweep : sweeps_) sweep.nodes.resize(first_arcs_.back());
   }
   for (std::size_t i = solution_.spans.size(); i-- > 0;) factorise_span(i);
-}
-
-// Which arcs and which section each has.
-void Response::name_spans() {
-  first_arcs_.assign(1, 0);
-  section_of_span_.clear();
-  const auto& sections = solution_.scene->sections;
-  std::size_t section = 0;
-  double section_end_mm = sections[0].length_mm;
-  for (std::size_t i = 0; i < solution_.spans.size(); ++i) {
-    const scene::Span& span = solution_.spans[i];
-    first_arcs_.push_back(first_arcs_.back() + static_cast<std::size_t>(solution_.arcs_per_span[i]));
-    while ((span.start_mm + span.end_mm) / 2 >= section_end_mm && section + 1 < sections.size()) {
-      section_end_mm += sections[++section].length_mm;
-    }
-    section_of_span_.push_back(section);
-  }
 }
 
 void Response::factorise_span(std::size_t i) {

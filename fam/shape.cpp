@@ -1,6 +1,5 @@
 #include "fam/shape.h"
 
-#include <cmath>
 #include <numbers>
 
 namespace fam {

@@ -5,7 +5,6 @@
 #include "fam/varied_march.h"
 
 #include <complex>
-#include <optional>
 #include <span>
 #include <vector>
 

@@ -5,7 +5,7 @@
 
 namespace scene {
 
-// One JSON object with the keys of the scene format's "JSON that solve prints", plus `message`. Where the solve did
+// One JSON object with the keys that docs/commands.md lists, plus `message`. Where the solve did
 // not converge, tip, base and error_estimate_mm are null and centreline is empty. time_us: the solve alone.
 std::string to_json(const Equilibrium& result, const std::string& method, double time_us);
 

@@ -12,8 +12,8 @@ namespace scene {
 namespace {
 
 // What no scene needs, refused while the file is read, so that time and memory stay in proportion to its size.
-constexpr int max_depth = 16;          // the format needs 6
-constexpr std::size_t max_keys = 32;   // of one object; the format needs 5
+constexpr int max_depth = 16;          // scenes need 6, estimation files 9
+constexpr std::size_t max_keys = 32;   // of one object; paths need 8
 constexpr int max_values = 4'000'000;  // of the file; 100 000 loads need some 2 million
 
 // Text from the file for an error message: one line of printable ASCII, other bytes as \xHH, cut where it is longer.

@@ -14,7 +14,7 @@ PathRequest read_path(std::istream& input, const std::string& source);
 // The same from a file, or from standard input where path is "-".
 PathRequest read_path_file(const std::string& path);
 
-// The parameter for a person, with its unit: "load factor", "turn, rad", "loads[1].x, N".
+// The parameter for a person: "load factor", "turn, rad", "loads[1].x".
 std::string name_of_parameter(const PathRequest& request);
 
 // One JSON object: `status`, `message`, `points`.

@@ -1,4 +1,4 @@
-// The scene file (JSON, UTF-8) in and out. README.md, "Scene files", states the format.
+// The scene file (JSON, UTF-8) in and out. docs/scene_format.md states the format.
 #pragma once
 
 #include "scene/scene.h"

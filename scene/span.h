@@ -29,7 +29,7 @@ struct Span {
   Wrench follower_load_S;  // in the section frame at end_mm; forces off the centreline with their moments
   Wrench fixed_load_B;     // in the base frame
   // Sum of F_B r_S^T over the fixed forces off the centreline (the astatic tensor of their lever arms): their moment
-  // about the centreline, sum r x (R^T F) in the section frame, is the axial vector of R^T times it (moment_of_arms_S).
+  // about the centreline, sum r x (R^T F) in the section frame, is the axial vector of R^T times it (moment_of_arms).
   Eigen::Matrix3d fixed_force_arms_BS_Nmm = Eigen::Matrix3d::Zero();
 
   // Distributed forces all along the span, gravity included.

@@ -35,8 +35,10 @@ SolvedRod::SolvedRod(Scene scene, std::vector<int> arcs_per_span, fam::Law law)
   shape_ = std::make_unique<fam::BasicShape<3>>();
   shape_->set(solution);
   response_.reserve(solution.arcs.size(), spans_.size(), scene::max_tendon_offsets);
-  response_.set(
-      {&scene_, spans_, arcs_per_span_, solution.poses, solution.distal_wrenches_S, solution.law, solution.model});
+  const scene::Scene* const scenes[] = {&scene_};
+  cutter_.cut(scenes);
+  response_.set({&scene_, spans_, cutter_.sections(), arcs_per_span_, solution.poses, solution.distal_wrenches_S,
+                 solution.law, solution.model});
 }
 
 // At an arc's end the side towards the clamp.

@@ -38,6 +38,7 @@ class SolvedRod {
  private:
   scene::Scene scene_;
   std::vector<scene::Span> spans_;
+  scene::SpanCutter cutter_;
   fam::GrowingLoads loads_;
   std::vector<int> arcs_per_span_;
   fam::Law law_;

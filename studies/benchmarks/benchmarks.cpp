@@ -8,7 +8,6 @@
 #include "studies/study.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <utility>
 

@@ -8,7 +8,6 @@
 #include "studies/scenes/cases.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace studies {

@@ -99,10 +99,4 @@ std::uint64_t Tally::scenes() const {
   return sum;
 }
 
-std::uint64_t Tally::scenes_with(const std::string& outcome) const {
-  std::uint64_t sum = 0;
-  for (const auto& [key, n] : counts_) sum += key.second == outcome ? n : 0;
-  return sum;
-}
-
 }  // namespace studies

@@ -2,7 +2,6 @@
 // Tallies of parts add up to that of the whole, whatever the parts and their order, to the byte.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -57,9 +56,7 @@ class Tally {
   const std::map<std::string, std::set<Worst>>& worst() const { return worst_; }
   const std::set<Failure>& failures() const { return failures_; }
 
-  // Of all kinds.
-  std::uint64_t scenes() const;
-  std::uint64_t scenes_with(const std::string& outcome) const;
+  std::uint64_t scenes() const;  // of all kinds
 
  private:
   void keep(const std::string& measure, const Worst& worst);

@@ -1,7 +1,5 @@
 #include "studies/compare/verdict.h"
 
-#include <cmath>
-
 namespace studies {
 namespace {
 

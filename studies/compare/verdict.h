@@ -5,7 +5,6 @@
 #include "scene/scene.h"
 
 #include <functional>
-#include <string>
 
 namespace studies {
 

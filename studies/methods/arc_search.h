@@ -41,7 +41,7 @@ T bisect(const Function& f, T low, T high, T tolerance) {
   return (low + high) / 2;
 }
 
-// tolerance 0: relative to the loads, as in fam/arc_law.h but for the scalar type.
+// tolerance 0: relative to the loads, as in fam/published_arc.h but for the scalar type.
 template <class T, class Function>
 T secant(const Function& f, T start, T tolerance, T scale) {
   const T relative = 8 * std::numeric_limits<T>::epsilon();

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace studies {
@@ -49,7 +48,6 @@ class Svg {
   void name(Point at, const std::string& text, const std::string& colour, Anchor anchor = Anchor::start);
 
   double width() const { return width_; }
-  double height() const { return height_; }
 
   std::string str() const;
 

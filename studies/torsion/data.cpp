@@ -3,7 +3,6 @@
 #include "studies/report/table.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 namespace studies {
