@@ -254,9 +254,12 @@ bool PathStepper::change_mesh(PathPlace& place, const PathMesh& mesh) {
     tangent.segment<3>(static_cast<Eigen::Index>(9 * k)) = rotation_vector(turn) / ahead;
   }
   tangent[tangent.size() - 1] = place.slope();
-  auto corrected_place = judged(corrected(here, equations_.row_across(tangent), Newton::usual));
-  if (!corrected_place) return false;
-  place = std::move(*corrected_place);
+  const auto found = corrected(here, equations_.row_across(tangent), Newton::usual);
+  if (!found) return false;
+  // Its tangent is that of Newton's last step, which may have come far; once more from where it is.
+  auto again = judged(corrected(found->state, equations_.row_across(found->tangent), Newton::usual));
+  if (!again) return false;
+  place = std::move(*again);
   return true;
 }
 
