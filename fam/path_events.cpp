@@ -253,6 +253,10 @@ PathWalk::Event PathWalk::crossing(const PathPlace& from, const Event& near) {
     places[i].tip_position_B_mm = stepper_.equations().positions_mm(at->state).back();
     slopes[i] = at->slope();
   }
+  const double rise = slopes.back() - slopes.front();  // but where Newton's method met the other path
+  for (std::size_t i = 1; i < slopes.size(); ++i) {
+    if (!((slopes[i] - slopes[i - 1]) * rise > 0)) return {-1, from, Kind::branch};
+  }
   const auto share = [](const auto& nodes, std::size_t i, double x) {  // Lagrange's
     double product = 1;
     for (std::size_t j = 0; j < nodes.size(); ++j) {
