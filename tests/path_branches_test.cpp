@@ -124,7 +124,7 @@ TEST(PathBranches, NoneIsMissedBesideAPoint) {
     const scene::Path path = fam::Path::follow(request).points();
     const std::vector<PathPoint> met = critical_points(path, 0);
     ASSERT_EQ(met.size(), 2u) << to;
-    EXPECT_NEAR(met[0].parameter, critical, 1e-3 * critical);  // measured 3e-6
+    EXPECT_NEAR(met[0].parameter, critical, 2e-5 * critical);  // measured 3e-6; the arcs that located it: 2e-4
     EXPECT_NEAR(met[1].parameter, 2.5 * critical, 2.5e-3 * critical);
     for (const PathPoint& point : path.points) {
       const int beyond = (point.parameter > critical) + (point.parameter > 2.5 * critical);
