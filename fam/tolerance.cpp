@@ -130,7 +130,7 @@ class Ladder {
 
   // Which of two runs, the finer with `ratio` times the arcs, meets the tolerance; null if none.
   const Run* sufficient(const Run& coarse, const Run& fine, double ratio) {
-    const double by_order = fine_safety / (std::pow(ratio, std::max(order_ - 1, 1)) - 1);
+    const double by_order = fine_safety / (std::pow(ratio, std::max(order_ - 1.0, 0.5)) - 1);
     const auto factor_of_fine = [&](const Distance& d) {
       const double d_mm = largest_mm(d);
       const double least = std::isnan(last_mm_) ? unconfirmed : d_mm > contraction * last_mm_ ? 1 : 0;

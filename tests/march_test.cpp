@@ -320,6 +320,23 @@ TEST(Solve, PublishedLawNamesItsLimits) {
   EXPECT_EQ(sheared.status, scene::Status::unsupported);
 }
 
+// First order in space: errors are told from runs with four times the arcs, and are numbers where no arcs suffice.
+TEST(Solve, PublishedLawIsEstimated) {
+  const scene::Scene scene = support::study1_scene("S4", "follower");
+  const Vector3d exact_mm = support::study1_tip_mm("S4", "follower", "kirchhoff");
+  for (const double tolerance_mm : {1.0, 0.1, 0.01}) {
+    const scene::Equilibrium result = fam::solve(scene, {.law = Law::published, .tolerance_mm = tolerance_mm});
+    ASSERT_TRUE(result.converged());
+    const double error_mm = (result.tip().position_B_mm - exact_mm).norm();
+    EXPECT_LE(error_mm, tolerance_mm);
+    EXPECT_LE(error_mm, 1.1 * result.error_estimate_mm);  // measured 0.89 to 0.96 of it
+    EXPECT_GE(error_mm, 0.5 * result.error_estimate_mm);
+  }
+  const scene::Equilibrium none = fam::solve(scene, {.law = Law::published, .tolerance_mm = 1e-9});
+  EXPECT_EQ(none.status, scene::Status::tolerance_not_met);
+  EXPECT_EQ(none.message.find("inf"), std::string::npos) << none.message;
+}
+
 TEST(Solve, OverflowIsAStatus) {
   const scene::Equilibrium result =
       fam::solve(tip_loaded(slender(1e-300, 1e-300), {1e300, 1e300, 0}, {0, 0, 1e300}), with(Law::midpoint, 10));
