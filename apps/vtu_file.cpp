@@ -44,7 +44,8 @@ PointData point_data(const scene::Scene& scene, const scene::Equilibrium& result
     for (int row = 0; row < 3; ++row) append(data.rotation, Eigen::Vector3d(station.X_BS.rotation_BS.row(row)));
     append(data.force_N, station.force_B_N);
     append(data.moment_Nmm, station.moment_B_Nmm);
-    append(data.curvature_per_mm, scene::curvature_per_mm(section, station.X_BS.rotation_BS.transpose() * station.moment_B_Nmm));
+    append(data.curvature_per_mm,
+           scene::curvature_per_mm(section, station.X_BS.rotation_BS.transpose() * station.moment_B_Nmm));
     append(data.position_mm, station.X_BS.position_B_mm);
   }
   return data;

@@ -322,8 +322,9 @@ struct Estimator::Impl {
     if (!found) x = start;
     else rows.put_into(result.problem, x);
     if (found)
-      result.message =
-          result.fits ? "" : "no fit was found: chi-squared is larger than one in 1000 would be; the model, or a start far from the truth";
+      result.message = result.fits ? ""
+                                   : "no fit was found: chi-squared is larger than one in 1000 would be; the model, or "
+                                     "a start far from the truth";
     return result;
   }
 };

@@ -170,8 +170,8 @@ std::vector<bool> PathEquations::coarse_spans(const PathState& state, double all
   return coarse;
 }
 
-// One Newton step, with the factors at hand, towards the solution with twice the arcs, and on along the path to the same
-// parameter; what it does to the positions is told by the arcs as they are.
+// One Newton step, with the factors at hand, towards the solution with twice the arcs, and on along the path to the
+// same parameter; what it does to the positions is told by the arcs as they are.
 PathEquations::Accuracy PathEquations::accuracy(const PathState& state, const Change& tangent) {
   std::vector<ArcRange> segments = mesh_.segments;
   for (ArcRange& segment : segments) segment = {2 * segment.first_arc, 2 * segment.end_arc};

@@ -81,8 +81,8 @@ Response* Solver::Impl::prepared_response() {
   }
   const Problem& problem = solved->problem;
   const Choice& choice = problem.choice();
-  response.set({&problem.scene(), problem.scene_spans(), problem.section_of_span(), solved_states.arcs, solved_states.poses,
-                solved_states.distal_wrenches_S, choice.law, choice.rod.model,
+  response.set({&problem.scene(), problem.scene_spans(), problem.section_of_span(), solved_states.arcs,
+                solved_states.poses, solved_states.distal_wrenches_S, choice.law, choice.rod.model,
                 choice.plane ? std::optional(choice.rotation_BP) : std::nullopt});
   return &response;
 }

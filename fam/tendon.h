@@ -81,7 +81,7 @@ class TendonSection {
     return screw<T>(x, Vector<T, D>(rest_translation_mm_.template cast<T>()));
   }
 
-  // The series of an arc: begin_series() after its first strain, then coefficient k of the strain from that of the wrench.
+  // An arc's series: begin_series() after its first strain, then coefficient k of the strain from that of the wrench.
   [[gnu::noinline]] void begin_series(const BasicScrew<T, D>& first) {
     factors_.setIdentity();
     for (std::size_t i = 0; i < tendons_.size(); ++i) {

@@ -24,8 +24,8 @@ struct RandomOutcome {
 };
 
 // Reports one outcome a method: exact, fam, fem. The exact reference itself: "converged" or "not converged". Where it
-// did not converge: "no judge", or "not converged either" of a method that gave up as well. `tolerance missed`: fam, error >
-// 3e-4 L but <= 1e-2 L.
+// did not converge: "no judge", or "not converged either" of a method that gave up as well. `tolerance missed`: fam,
+// error > 3e-4 L but <= 1e-2 L.
 void random_outcomes(std::uint64_t seed, bool with_finite_elements,
                      const std::function<void(const RandomOutcome&)>& report);
 
