@@ -4,6 +4,7 @@
 #include "studies/campaign/summary.h"
 #include "studies/campaign/tally.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -115,6 +116,27 @@ TEST(Campaign, GoesOnWhereItWasKilled) {
     ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
     EXPECT_EQ(compared(folder), alone());
   }
+}
+
+// As a power cut, a full quota or a copy in the wrong place leave them.
+TEST(Campaign, DoesChunksAgainThatAreNotWhole) {
+  const fs::path folder = scratch() / "damaged", chunks = folder / "chunks" / "000000";
+  ASSERT_EQ(run(fam_studies, of_random + folder.string()).exit_status, 0);
+  const auto chunk = [&](int k) { return chunks / fmt::format("{:012}-{:012}.csv", 5 * k, 5 * k + 4); };
+  const std::string text = contents(chunk(2));
+  std::ofstream(chunk(1)) << "";
+  std::ofstream(chunk(2)) << text.substr(0, text.find('\n') + 1);
+  std::ofstream(chunk(3)) << text.substr(0, text.size() - 1);
+  std::ofstream(chunk(4)) << text;
+  const Outcome outcome = run(fam_studies, of_random + folder.string());
+  ASSERT_EQ(outcome.exit_status, 0) << outcome.err;
+  EXPECT_EQ(compared(folder), alone());
+  // Without the manifest nobody knows whose they are.
+  fs::remove(folder / "manifest.json");
+  const Outcome unknown = run(fam_studies, of_random + folder.string());
+  EXPECT_EQ(unknown.exit_status, 2);
+  EXPECT_NE(unknown.err.find("manifest.json: (missing)"), std::string::npos) << unknown.err;
+  EXPECT_EQ(compared(folder), alone());
 }
 
 TEST(Campaign, GrowsAndRefusesTheFolderOfAnother) {

@@ -31,6 +31,15 @@ fs::path path_of(const CampaignPlan& plan, std::uint64_t from) {
          fmt::format("{:012}-{:012}.csv", from, end_of(plan, from) - 1);
 }
 
+// The last line of a chunk's file, by which it is known as whole.
+std::string end_line(const CampaignPlan& plan, std::uint64_t from) {
+  return fmt::format("end,{},{},{},{}\n", plan.kind, plan.identity, from, end_of(plan, from) - 1);
+}
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
 std::string text_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(file), {});
@@ -54,7 +63,8 @@ std::vector<std::uint64_t> missing_chunks(const CampaignPlan& plan) {
   remove_leftovers(plan);
   std::vector<std::uint64_t> missing;
   for (std::uint64_t from = 0; from < plan.items; from += plan.chunk) {
-    if (!fs::exists(path_of(plan, from))) missing.push_back(from);
+    const fs::path path = path_of(plan, from);
+    if (!fs::exists(path) || !ends_with(text_of(path), end_line(plan, from))) missing.push_back(from);
   }
   return missing;
 }
@@ -63,6 +73,10 @@ std::vector<std::uint64_t> missing_chunks(const CampaignPlan& plan) {
 void write_manifest(const CampaignPlan& plan) {
   const fs::path path = plan.folder / "manifest.json";
   Json manifest{{"kind", plan.kind}, {"asked", plan.identity}, {"chunk", plan.chunk}, {"commits", Json::array()}};
+  std::error_code none;
+  if (!fs::exists(path) && fs::directory_iterator(plan.folder / "chunks", none) != fs::directory_iterator())
+    throw scene::SceneError(path.string() + ": (missing): says whose the chunks in this folder are; a campaign that " +
+                            "begins needs a folder of its own");
   if (fs::exists(path)) {
     const Json found = Json::parse(text_of(path), nullptr, false);
     for (const char* key : {"kind", "asked", "chunk"}) {
@@ -121,7 +135,8 @@ void work_off(Crew& crew, const CampaignPlan& plan, const std::vector<std::uint6
       next_report_s = clock.seconds() + report_every_s;
     }
     try {
-      write_file(path_of(plan, missing[k]), work(missing[k], end_of(plan, missing[k]), [&] { crew.help(); }));
+      const std::uint64_t from = missing[k];
+      write_file(path_of(plan, from), work(from, end_of(plan, from), [&] { crew.help(); }) + end_line(plan, from));
     } catch (...) {
       crew.skip_to(missing.size());
       throw;
@@ -152,7 +167,12 @@ bool run_chunks(Crew& crew, const CampaignPlan& plan, const ChunkWork& work, Pro
 }
 
 void read_chunks(const CampaignPlan& plan, const std::function<void(const std::string& text)>& take) {
-  for (std::uint64_t from = 0; from < plan.items; from += plan.chunk) take(text_of(path_of(plan, from)));
+  for (std::uint64_t from = 0; from < plan.items; from += plan.chunk) {
+    const fs::path path = path_of(plan, from);
+    const std::string text = text_of(path), end = end_line(plan, from);
+    if (!ends_with(text, end)) throw OutputError(path.string() + ": is not whole; the next run does it again");
+    take(text.substr(0, text.size() - end.size()));
+  }
 }
 
 }  // namespace studies

@@ -2,7 +2,8 @@
 // so that a killed run goes on where it was, with another crew, too.
 //
 //   FOLDER/manifest.json     what the folder holds, and which builds wrote it
-//   FOLDER/chunks/M/F-L.csv  of scenes F to L, M the number of their million
+//   FOLDER/chunks/M/F-L.csv  of scenes F to L, M the number of their million; its last line says so: a file without
+//                            it (cut off, empty after a power cut, of other scenes) is done again
 //   FOLDER/timing.csv        a line a run: ranks, scenes, seconds
 //
 // All but manifest and timing are functions of kind, seed, number of scenes and chunk alone.
