@@ -6,6 +6,7 @@
 #include "fam/solve.h"
 #include "scene/load_visitor.h"
 #include "scene/scene_file.h"
+#include "studies/report/file_options.h"
 #include "studies/report/output_file.h"
 
 #include <fmt/format.h>
@@ -56,13 +57,13 @@ void write_rods(const std::string& path, const scene::Scene& scene, const Values
 CLI::App* add_batch_command(CLI::App& app, BatchArguments& arguments) {
   CLI::App* batch = app.add_subcommand("batch", "Solve one scene for many values of its loads");
   add_scene_and_options(batch, arguments.scene_path, arguments.fam);
-  batch
-      ->add_option("--values", arguments.values_path,
-                   "Values (CSV), or - for standard input: a row a rod, columns such as 0.x or 2.tension")
+  studies::add_file_option(batch, "--values", arguments.values_path,
+                           "Values (CSV), or - for standard input: a row a rod, columns such as 0.x or 2.tension")
       ->required();
-  batch->add_option("--output", arguments.output_path, "Results (CSV), a row a rod (default: -, standard output)");
-  add_file_option(batch, "--pvd", arguments.pvd_path,
-                  "Write the rods that were solved for ParaView, and this file that lists them");
+  studies::add_file_option(batch, "--output", arguments.output_path,
+                           "Results (CSV), a row a rod (default: -, standard output)");
+  studies::add_file_option(batch, "--pvd", arguments.pvd_path,
+                           "Write the rods that were solved for ParaView, and this file that lists them");
   batch->add_flag_callback(
       "--no-estimate", [&arguments] { arguments.fam.estimate_error = false; }, "Leave the error estimate out");
   batch
@@ -72,8 +73,8 @@ CLI::App* add_batch_command(CLI::App& app, BatchArguments& arguments) {
   batch->callback([&arguments] {
     if (arguments.scene_path == "-" && arguments.values_path == "-")
       throw CLI::ValidationError("--values", "standard input is the scene already");
-    if (arguments.values_path.empty() || arguments.output_path.empty())
-      throw CLI::ValidationError(arguments.values_path.empty() ? "--values" : "--output", "must name a file");
+    studies::refuse_overwriting({{"the scene", arguments.scene_path}, {"--values", arguments.values_path}},
+                                {{"--output", arguments.output_path}, {"--pvd", arguments.pvd_path}});
   });
   return batch;
 }

@@ -3,6 +3,7 @@
 #include "apps/vtu_file.h"
 #include "fam/path.h"
 #include "scene/path_file.h"
+#include "studies/report/file_options.h"
 #include "studies/report/output_file.h"
 #include "studies/report/path_chart.h"
 
@@ -29,8 +30,12 @@ CLI::App* add_path_command(CLI::App& app, PathArguments& arguments) {
   CLI::App* path = app.add_subcommand("path", "Follow the equilibria of a scene while one number of it changes");
   add_scene_and_options(path, arguments.path, arguments.fam, "Path file (JSON), or - for standard input");
   add_output_options(path, arguments.format, arguments.svg_path, "Write a picture of the path to this file");
-  add_file_option(path, "--pvd", arguments.pvd_path,
-                  "Write the rods of the path for ParaView, and this file that lists them");
+  studies::add_file_option(path, "--pvd", arguments.pvd_path,
+                           "Write the rods of the path for ParaView, and this file that lists them");
+  path->callback([&arguments] {
+    studies::refuse_overwriting({{"the path file", arguments.path}},
+                                {{"--svg", arguments.svg_path}, {"--pvd", arguments.pvd_path}});
+  });
   return path;
 }
 

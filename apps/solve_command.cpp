@@ -7,6 +7,7 @@
 #include "scene/scene_file.h"
 #include "studies/compare/stopwatch.h"
 #include "studies/report/chart.h"
+#include "studies/report/file_options.h"
 #include "studies/report/output_file.h"
 
 #include <fmt/format.h>
@@ -35,10 +36,6 @@ std::string not_positive(const std::string& text) {
   return *end == 0 && std::isfinite(value) && value > 0 ? "" : "must be a number > 0";
 }
 
-std::string no_name(const std::string& text) {
-  return text.empty() ? "must name a file" : "";
-}
-
 // An option that takes one of a few names.
 template <class Value>
 void add_choice(CLI::App* command, const std::string& option, Value& target, const std::string& what,
@@ -54,11 +51,7 @@ void add_choice(CLI::App* command, const std::string& option, Value& target, con
 void add_output_options(CLI::App* command, std::string& format, std::string& svg_path, const std::string& picture) {
   command->add_option("--format", format, "text, json or csv (default: text)")
       ->check(CLI::IsMember({"text", "json", "csv"}));
-  add_file_option(command, "--svg", svg_path, picture);
-}
-
-void add_file_option(CLI::App* command, const std::string& option, std::string& path, const std::string& what) {
-  command->add_option(option, path, what)->check(CLI::Validator(no_name, "FILE"));
+  studies::add_file_option(command, "--svg", svg_path, picture);
 }
 
 void add_scene_and_options(CLI::App* command, std::string& scene_path, fam::Options& options, const std::string& what) {
@@ -88,7 +81,7 @@ CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments) {
       {{"bend_twist", fam::TwistOrder::bend_twist}, {"twist_bend", fam::TwistOrder::twist_bend}});
   add_output_options(solve, arguments.format, arguments.svg_path,
                      "Write a picture of the deformed centreline to this file");
-  add_file_option(solve, "--vtu", arguments.vtu_path, "Write the rod to this file for ParaView (VTK's XML)");
+  studies::add_file_option(solve, "--vtu", arguments.vtu_path, "Write the rod to this file for ParaView (VTK's XML)");
   solve->add_flag("--derivatives", arguments.derivatives,
                   "Add the tip's derivatives by loads, sections and a wrench at the tip to --format json");
   solve->add_flag("--after-snap", options.after_snap,
@@ -100,8 +93,8 @@ CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments) {
       throw CLI::ValidationError("--derivatives", "the law published has none");
     if (!arguments.vtu_path.empty() && arguments.method == "elastica")
       throw CLI::ValidationError("--vtu", "the method elastica gives the tip alone");
-    if (!arguments.vtu_path.empty() && arguments.vtu_path == arguments.svg_path)
-      throw CLI::ValidationError("--vtu", "names the file of --svg");
+    studies::refuse_overwriting({{"the scene", arguments.scene_path}},
+                                {{"--svg", arguments.svg_path}, {"--vtu", arguments.vtu_path}});
     if (options.after_snap && arguments.method != "fam")
       throw CLI::ValidationError("--after-snap", "needs the method fam");
     if (solve->count("--twist-order") > 0 && options.law != fam::Law::published)

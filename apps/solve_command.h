@@ -25,9 +25,8 @@ struct SolveArguments {
 // The scene, --tolerance-mm, --arcs, --law, --model.
 void add_scene_and_options(CLI::App* command, std::string& scene_path, fam::Options& options,
                            const std::string& what = "Scene file (JSON), or - for standard input");
-// --format, --svg; and an option that names a file to write.
+// --format, --svg.
 void add_output_options(CLI::App* command, std::string& format, std::string& svg_path, const std::string& picture);
-void add_file_option(CLI::App* command, const std::string& option, std::string& path, const std::string& what);
 
 // Adds `solve` with the options that every method has.
 CLI::App* add_solve_command(CLI::App& app, SolveArguments& arguments);

@@ -140,6 +140,25 @@ TEST(Command, WrongUsageNamesWhatIsWrong) {
   EXPECT_EQ(refused(fam, "solve " + scene + " --twist-order twist_bend"), "--twist-order: needs --law published");
   EXPECT_EQ(refused(fam, "solve " + scene + " --svg \"\""), "--svg: must name a file");
   EXPECT_EQ(refused(fam, "solve " + scene + " --svg rod.xml --vtu rod.xml"), "--vtu: names the file of --svg");
+  const std::string own = (scratch() / "own.json").string(), values = (scratch() / "own.csv").string();
+  fs::copy_file(scene, own, fs::copy_options::overwrite_existing);
+  std::ofstream(values) << "0.y\n0.1\n";
+  const std::string again = (scratch() / "." / "own.json").string(), link = (scratch() / "link.json").string();
+  fs::remove(link);
+  fs::create_symlink(own, link);
+  EXPECT_EQ(refused(fam, "solve " + own + " --vtu " + own), "--vtu: names the file of the scene");
+  EXPECT_EQ(refused(fam, "solve " + own + " --svg " + again), "--svg: names the file of the scene");
+  EXPECT_EQ(refused(fam, "solve " + link + " --svg " + own), "--svg: names the file of the scene");
+  EXPECT_EQ(refused(fam, "path " + own + " --svg " + own), "--svg: names the file of the path file");
+  EXPECT_EQ(refused(fam, "batch " + own + " --values " + values + " --output " + values),
+            "--output: names the file of --values");
+  fs::current_path(scratch());
+  EXPECT_EQ(refused(fam, "batch " + own + " --values " + values + " --output rods.pvd --pvd ./rods.pvd"),
+            "--pvd: names the file of --output");
+  EXPECT_EQ(refused(fam_studies, "export " + own + " --format abaqus --output " + own),
+            "--output: names the file of the scene");
+  EXPECT_EQ(contents(own), contents(scene));
+  EXPECT_EQ(run(fam, "solve " + own + " --svg /dev/null --vtu /dev/null").exit_status, 0);
   const std::string nowhere = (scratch() / "nowhere").string();
   EXPECT_EQ(refused(fam_studies, "random sum " + nowhere + " out"), nowhere + ": No such file or directory");
   for (const auto& [method, option] :

@@ -2,6 +2,7 @@
 
 #include "scene/scene_file.h"
 #include "studies/own_scene/comparison.h"
+#include "studies/report/file_options.h"
 #include "studies/report/output_file.h"
 
 #include <fmt/format.h>
@@ -27,6 +28,10 @@ void check_usage(const CompareArguments& arguments, bool has_gate) {
   if (!against.empty() && scenes.size() > 1) throw CLI::ValidationError("--against", "needs one scene");
   if (std::count(scenes.begin(), scenes.end(), "-") + (against == "-") > 1)
     throw CLI::ValidationError("-", "standard input is read once");
+  NamedFiles inputs{{"--against", against}};
+  for (const std::string& scene : scenes) inputs.emplace_back("the scene", scene);
+  for (const char* name : {"compare.md", "compare.csv", "compare.json", "compare.svg"})
+    refuse_overwriting(inputs, {{"--output", (output / name).string()}});
 }
 
 }  // namespace
@@ -43,10 +48,8 @@ CLI::App* add_compare_command(CLI::App& app, CompareArguments& arguments) {
                       "Folder for compare.md, compare.csv, compare.json and compare.svg (default: compare)");
   const auto* gate = command->add_option(
       "--gate-mm", arguments.gate_mm, "Exit status 1 if a shape is farther than this from the most accurate one, mm");
-  command
-      ->add_option("--against", arguments.against,
-                   "A centreline of your own (CSV: s_mm,x,y,z), or -; the gate then holds it alone")
-      ->check(CLI::Validator([](const std::string& name) { return name.empty() ? "must name a file" : ""; }, "FILE"));
+  add_file_option(command, "--against", arguments.against,
+                  "A centreline of your own (CSV: s_mm,x,y,z), or -; the gate then holds it alone");
   command->callback([&arguments, gate] { check_usage(arguments, gate->count() > 0); });
   return command;
 }

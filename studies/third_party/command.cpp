@@ -1,6 +1,7 @@
 #include "studies/third_party/command.h"
 
 #include "scene/scene_file.h"
+#include "studies/report/file_options.h"
 #include "studies/report/output_file.h"
 
 #include <fmt/format.h>
@@ -18,10 +19,12 @@ CLI::App* add_export_command(CLI::App& app, ExportArguments& arguments) {
           "Whose beam elements: abaqus or calculix")
       ->check(CLI::IsMember(formats))
       ->required();
-  command->add_option("--output", arguments.output, "File to write (default: -, standard output)")
-      ->check(CLI::Validator([](const std::string& name) { return name.empty() ? "must name a file" : ""; }, "FILE"));
+  add_file_option(command, "--output", arguments.output, "File to write (default: -, standard output)");
   command->add_option("--elements", arguments.elements, "Number of elements (default: 50)")
       ->check(CLI::Range(1, 100'000));
+  command->callback([&arguments] {
+    refuse_overwriting({{"the scene", arguments.scene}}, {{"--output", arguments.output}});
+  });
   return command;
 }
 
