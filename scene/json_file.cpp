@@ -47,31 +47,47 @@ std::string join(const std::string& path, const std::string& key) {
 
 namespace {
 
-// Follows the parser so that an error inside the text can be named by its JSON path; refuses what no scene needs, and a
-// key given twice, of which a JSON parser would silently keep the last.
-class PathTracker {
+// Follows a parser so that an error inside the text can be named by its JSON path; refuses what no scene needs, and a
+// key given twice, of which a JSON parser would silently keep the last. A pass of its own: the parser's own callback
+// looks at all members of an array after each.
+class PathTracker : public nlohmann::json_sax<Json> {
  public:
   explicit PathTracker(const std::string& source) : source_(source) {}
 
-  bool operator()(int /*depth*/, Json::parse_event_t event, const Json& parsed) {
-    using Event = Json::parse_event_t;
-    if (++values_ > max_values) refuse(source_, path(), "(too much)", "more values than a scene can have");
-    if (event == Event::object_start || event == Event::array_start) {
-      levels_.push_back({event == Event::array_start, {}, {}, 0});
-      if (levels_.size() > max_depth) refuse(source_, path(), "{...", "nested too deeply for a scene");
-    } else if (event == Event::key) {
-      Level& level = levels_.back();
-      level.key = parsed.get<std::string>();
-      if (level.keys.size() == max_keys)
-        refuse(source_, path(), dump(parsed), "more keys than an object here can have");
-      if (!level.keys.insert(level.key).second) refuse(source_, path(), dump(parsed), "the key is given twice");
-    } else {
-      if (event != Event::value) levels_.pop_back();
-      if (!levels_.empty() && levels_.back().is_array) ++levels_.back().index;
-    }
+  bool null() override { return value(); }
+  bool boolean(bool) override { return value(); }
+  bool number_integer(number_integer_t) override { return value(); }
+  bool number_unsigned(number_unsigned_t) override { return value(); }
+  bool number_float(number_float_t, const string_t&) override { return value(); }
+  bool string(string_t&) override { return value(); }
+  bool binary(binary_t&) override { return value(); }
+  bool start_object(std::size_t) override { return start(false); }
+  bool end_object() override { return end(); }
+  bool start_array(std::size_t) override { return start(true); }
+  bool end_array() override { return end(); }
+
+  bool key(string_t& name) override {
+    count();
+    Level& level = levels_.back();
+    level.key = name;
+    if (level.keys.size() == max_keys) refuse(source_, path(), dump(name), "more keys than an object here can have");
+    if (!level.keys.insert(name).second) refuse(source_, path(), dump(name), "the key is given twice");
     return true;
   }
 
+  bool parse_error(std::size_t, const std::string&, const Json::exception& error) override {
+    const std::string what = error.what();
+    if (dynamic_cast<const Json::out_of_range*>(&error)) {  // "... number overflow parsing '1e999'"
+      const std::size_t quote = what.find('\'');
+      const std::string number =
+          quote == std::string::npos ? "?" : what.substr(quote + 1, what.rfind('\'') - quote - 1);
+      refuse(source_, path(), number, "must be finite: the number does not fit a double");
+    }
+    // "[json.exception...] parse error at line 1, column 2: ..."
+    refuse(source_, path(), "(unreadable)", "not JSON: " + what.substr(what.find("] ") + 2));
+  }
+
+ private:
   std::string path() const {
     std::string text;
     for (const Level& level : levels_) {
@@ -80,8 +96,25 @@ class PathTracker {
     }
     return text;
   }
+  void count() {
+    if (++values_ > max_values) refuse(source_, path(), "(too much)", "more values than a scene can have");
+  }
+  bool start(bool is_array) {
+    count();
+    levels_.push_back({is_array, {}, {}, 0});
+    if (levels_.size() > max_depth) refuse(source_, path(), "{...", "nested too deeply for a scene");
+    return true;
+  }
+  bool end() {
+    levels_.pop_back();
+    return value();
+  }
+  bool value() {
+    count();
+    if (!levels_.empty() && levels_.back().is_array) ++levels_.back().index;
+    return true;
+  }
 
- private:
   struct Level {
     bool is_array;
     std::set<std::string> keys;
@@ -101,17 +134,8 @@ Json parse(const std::string& text, const std::string& source) {
     refuse(source, "", "(unreadable)", "not JSON: byte " + std::to_string(text.find('\0')) + " is zero");
   }
   PathTracker tracker(source);
-  try {
-    return Json::parse(text, std::ref(tracker));
-  } catch (const Json::parse_error& error) {
-    const std::string what = error.what();  // "[json.exception...] parse error at line 1, column 2: ..."
-    refuse(source, tracker.path(), "(unreadable)", "not JSON: " + what.substr(what.find("] ") + 2));
-  } catch (const Json::out_of_range& error) {
-    const std::string what = error.what();  // "... number overflow parsing '1e999'"
-    const std::size_t quote = what.find('\'');
-    const std::string number = quote == std::string::npos ? "?" : what.substr(quote + 1, what.rfind('\'') - quote - 1);
-    refuse(source, tracker.path(), number, "must be finite: the number does not fit a double");
-  }
+  Json::sax_parse(text, &tracker);
+  return Json::parse(text);
 }
 
 Json read_json(std::istream& input, const std::string& source) {
