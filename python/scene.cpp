@@ -6,6 +6,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <sstream>
 
 namespace fam_python {
@@ -110,22 +111,46 @@ class JsonWriter {
   std::vector<std::string> path_;
 };
 
+// After space and a byte order mark a bracket.
+bool is_json(py::handle text) {
+  const Py_ssize_t length = PyUnicode_GET_LENGTH(text.ptr());
+  for (Py_ssize_t i = 0; i < length; ++i) {
+    const Py_UCS4 character = PyUnicode_READ_CHAR(text.ptr(), i);
+    const bool is_mark = i == 0 && character == 0xFEFF;
+    if (!is_mark && !std::strchr(" \t\r\n", static_cast<int>(character < 128 ? character : 'x')))
+      return character == '{' || character == '[';
+  }
+  return false;
+}
+
+// As os.fsencode has it: a name need not be Unicode.
+std::string file_name(py::handle path, const std::string& where) {
+  PyObject* bytes = nullptr;
+  if (!PyUnicode_FSConverter(path.ptr(), &bytes)) {
+    PyErr_Clear();
+    refuse(where, path, "is neither JSON text nor the name of a file");
+  }
+  return py::reinterpret_steal<py::bytes>(bytes);
+}
+
 // read: of a stream with its name for errors; read_file: of a path.
 template <class Read, class ReadFile>
 auto read_any(py::handle value, const char* name, const Read& read, const ReadFile& read_file) {
+  const std::string where = std::string(name) + ": (top level)";
   const auto read_text = [&](const std::string& json) {
     std::istringstream input(json);
     return read(input, name);
   };
-  if (py::isinstance<py::str>(value)) {
-    const std::string text = value.cast<std::string>();
-    const std::size_t first = text.find_first_not_of(" \t\r\n");
-    const bool is_json = first != std::string::npos && (text[first] == '{' || text[first] == '[');
-    return is_json ? read_text(text) : read_file(text);
+  const bool is_text = py::isinstance<py::str>(value);
+  if (is_text && is_json(value)) {
+    Py_ssize_t size = 0;
+    const char* utf8 = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
+    if (utf8) return read_text({utf8, static_cast<std::size_t>(size)});
+    PyErr_Clear();
+    refuse(where, value, "is not Unicode");
   }
-  if (py::hasattr(value, "__fspath__")) return read_file(py::str(value.attr("__fspath__")()).cast<std::string>());
-  if (!py::isinstance<py::dict>(value))
-    refuse(std::string(name) + ": (top level)", value, "must be a dict, JSON text or a path");
+  if (is_text || py::hasattr(value, "__fspath__")) return read_file(file_name(value, where));
+  if (!py::isinstance<py::dict>(value)) refuse(where, value, "must be a dict, JSON text or a path");
   return read_text(JsonWriter(name).take(value));
 }
 

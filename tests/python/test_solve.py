@@ -2,6 +2,7 @@
 
 import json
 import math
+import os
 import threading
 
 import numpy as np
@@ -57,6 +58,8 @@ def test_every_number_is_that_of_the_command(rod, command, tmp_path):
 def test_scene_as_dict_text_and_path(rod, tmp_path):
     path = tmp_path / "rod.json"
     path.write_text(json.dumps(rod))
+    other = tmp_path / os.fsdecode(b"r\xf6d.json")  # a name need not be Unicode
+    other.write_text(json.dumps(rod))
     numpys = json.loads(json.dumps(rod))
     numpys["loads"][0]["value_N"] = np.array([0.1, 0.2, 0.3])
     numpys["loads"][3]["at"] = np.int64(25)
@@ -64,10 +67,20 @@ def test_scene_as_dict_text_and_path(rod, tmp_path):
     numpys["rod"]["sections"][0]["length_mm"] = np.float32(30)
     numpys["rod"]["sections"] = tuple(numpys["rod"]["sections"])
     tips = [fam.solve(scene).tip_position_mm
-            for scene in (rod, numpys, json.dumps(rod), "\n " + json.dumps(rod, indent=1), path, str(path))]
+            for scene in (rod, numpys, json.dumps(rod), "\n " + json.dumps(rod, indent=1), "\ufeff" + json.dumps(rod),
+                          path, str(path), other, os.fsdecode(other))]
     assert all(np.array_equal(tip, tips[0]) for tip in tips)
     rod["title"] = 'R\u00f6hre "1"\\\n\t\u2028 \U0001f600'
     assert fam.solve(rod).converged
+
+
+@pytest.mark.parametrize("scene, says", [
+    ("a\0b.json", "is neither JSON text nor the name of a file"),
+    ('{"title": "\udce9"}', "is not Unicode"),
+])
+def test_text_that_is_no_scene(scene, says):
+    with pytest.raises(fam.SceneError, match=says):
+        fam.solve(scene)
 
 
 def test_shapes_types_and_read_only_views(rod):
