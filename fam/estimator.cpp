@@ -226,6 +226,8 @@ struct Estimator::Impl {
         steps.see_left(size = full_step());
       }
       stand = x;
+      if (!std::isfinite(chi_squared + size))
+        return fail(Status::not_finite, "chi-squared overflows: measurements by far too many of their deviations away");
       if (!(size > small)) return true;
       if (solved_at_x && steps.is_last(size, steps.way, small) && take_last_step(size)) return true;
       scaling = information.diagonal().cwiseMax(least_scaling * information.diagonal().maxCoeff());

@@ -468,6 +468,21 @@ TEST(Estimator, NewDeviationsCount) {
 }
 
 // Near its buckling load a straight rod's trial steps end on other branches, that the next ones must not start from.
+// Deviations of 1e-300 and values of 1e160: no sum of squares tells one shape from another.
+TEST(Estimator, MeasurementsBeyondAllNumbersAreNoEstimate) {
+  const scene::Scene rod = rod_under({force(L_mm, {0, 0.1, 0})});
+  const auto estimate = [&](double y_mm, double sd_mm) {
+    const scene::Measurement tip{L_mm, scene::PositionMeasurement{{L_mm, y_mm, 0}, sd_mm}};
+    return Estimator({{{rod, {tip}}}, {{Unknown::Kind::component, 0, 0, 1, 0.1}}}).estimate();
+  };
+  EXPECT_TRUE(estimate(0.1, 1e-3).converged());
+  for (const auto& [y_mm, sd_mm] : {std::pair{0.1, 1e-300}, {0.1, 1e-200}, {1e160, 1e-3}}) {
+    const fam::Estimate result = estimate(y_mm, sd_mm);
+    EXPECT_EQ(result.status, scene::Status::not_finite) << y_mm << " " << sd_mm;
+    EXPECT_NE(result.message, "");
+  }
+}
+
 TEST(Estimator, TrialsThatLeaveTheBranchDoNoHarm) {
   const double buckling_N = EI_Nmm2 * std::pow(M_PI / (2 * L_mm), 2);
   const Vector3d pushed_N(-0.9 * buckling_N, 0.03, 0.04);
