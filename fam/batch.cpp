@@ -36,7 +36,7 @@ void check(std::vector<Load>& loads, std::span<const BatchColumn> columns) {
     }
     for (std::size_t before = 0; before < i; ++before) {
       if (columns[before].load == load && columns[before].component == component)
-        refuse(path, std::to_string(load) + "." + std::to_string(component), "the column is given twice");
+        refuse(path, "{" + std::to_string(load) + ", " + std::to_string(component) + "}", "the column is given twice");
     }
   }
 }

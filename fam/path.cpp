@@ -37,6 +37,12 @@ struct Path::Impl {
   Options options;
   mutable PathWalk walk;
 
+  const SavedPlace& place(std::size_t point) const {
+    if (point < walk.places().size()) return walk.places()[point];
+    throw scene::SceneError("point = " + std::to_string(point) + ": the path has " +
+                            std::to_string(walk.places().size()) + " points, counted from 0");
+  }
+
   Impl(const scene::PathRequest& r, const Options& o) : request(r), options(o), walk(r, o, settings_for(r)) {}
 };
 
@@ -56,7 +62,7 @@ Path Path::follow_on(const scene::PathRequest& request, const Path& from, std::s
                      const Options& options) {
   scene::validate(request);
   auto impl = std::make_unique<Impl>(request, options);
-  impl->walk.run_from(from.impl_->walk.places().at(point), back);
+  impl->walk.run_from(from.impl_->place(point), back);
   return Path(std::move(impl));
 }
 
@@ -66,14 +72,14 @@ const scene::Path& Path::points() const {
 
 std::vector<Eigen::Vector3d> Path::centreline_mm(std::size_t point) const {
   PathStepper& stepper = impl_->walk.stepper();
-  const PathPlace place = stepper.restored(impl_->walk.places().at(point));
+  const PathPlace place = stepper.restored(impl_->place(point));
   const int arcs = stepper.equations().rod().arc_count();
   return stepper.equations().centreline_mm(place.state, 1 + fewest_places / arcs);
 }
 
 scene::Equilibrium Path::equilibrium(std::size_t point) const {
   PathStepper& stepper = impl_->walk.stepper();
-  const PathPlace place = stepper.restored(impl_->walk.places().at(point));
+  const PathPlace place = stepper.restored(impl_->place(point));
   const double parameter = stepper.parameter(place);
   scene::Equilibrium result = stepper.equations().equilibrium(place.state, scene::scene_at(impl_->request, parameter));
   result.error_estimate_mm = place.accuracy.error_mm;

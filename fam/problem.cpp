@@ -69,6 +69,7 @@ void validate(const Options& options) {
   if (options.arcs < 0) refuse("arcs", options.arcs, "must be >= 0");
   if (options.arcs > max_arcs) refuse("arcs", options.arcs, "must be <= 1000000");
   if (options.reserved_arcs < 0) refuse("reserved_arcs", options.reserved_arcs, "must be >= 0");
+  if (options.threads < 0) refuse("threads", options.threads, "must be >= 0");
 }
 
 void Problem::take(const scene::Scene& scene, const Options& options) {

@@ -54,8 +54,8 @@ class PathChecker {
       case PathParameter::load_factor:
         for (std::size_t i = 0; i < loads.size(); ++i) {
           is_load("loads[" + std::to_string(i) + "]", loads[i]);
-          require(std::count(loads.begin(), loads.end(), loads[i]) == 1, "loads[" + std::to_string(i) + "]",
-                  static_cast<double>(loads[i]), "the load is named twice");
+          require(std::count(loads.begin(), loads.begin() + static_cast<std::ptrdiff_t>(i), loads[i]) == 0,
+                  "loads[" + std::to_string(i) + "]", static_cast<double>(loads[i]), "the load is named twice");
         }
         break;
       case PathParameter::turn_rad:

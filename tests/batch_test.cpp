@@ -211,7 +211,7 @@ TEST(Batch, WrongInputIsNamed) {
   EXPECT_EQ(refused({{1, 0}, {1, 3}}, values), "columns[1].component = 3: must be 0, 1 or 2");
   EXPECT_EQ(refused({{1, -1}, {1, 1}}, values), "columns[0].component = -1: must be 0, 1 or 2");
   EXPECT_EQ(refused({{1, 0}, {2, 1}}, values), "columns[1].component = 1: must be 0, the tension of a tendon");
-  EXPECT_EQ(refused({{1, 0}, {1, 0}}, values), "columns[1] = 1.0: the column is given twice");
+  EXPECT_EQ(refused({{1, 0}, {1, 0}}, values), "columns[1] = {1, 0}: the column is given twice");
   EXPECT_EQ(refused({{1, 0}}, values), "values = 2 columns: must have 1, one for each of columns");
   values(3, 1) = -0.5;
   EXPECT_EQ(refused({{1, 0}, {2, 0}}, values), "values[3][1] = -0.5: must be >= 0");

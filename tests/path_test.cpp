@@ -360,6 +360,8 @@ TEST(Path, WrongRequestsAreRefused) {
   wrong = right;
   wrong.loads = {1};
   refused(wrong, "path.loads[0] = 1");
+  wrong.loads = {0, 0};
+  refused(wrong, "path.loads[1] = 0: the load is named twice");
   wrong = right;
   wrong.stop_at = {2};
   refused(wrong, "path.stop_at[0] = 2");
@@ -373,6 +375,12 @@ TEST(Path, WrongRequestsAreRefused) {
   wrong.parameter = PathParameter::turn_rad;
   wrong.axis_B.setZero();
   refused(wrong, "path.axis = 0");
+  const fam::Path path = fam::Path::follow(right);
+  const std::size_t beyond = path.points().points.size();
+  EXPECT_THROW(path.centreline_mm(beyond), scene::SceneError);
+  EXPECT_THROW(path.equilibrium(beyond), scene::SceneError);
+  EXPECT_THROW(fam::Path::follow_on(right, path, beyond), scene::SceneError);
+  EXPECT_NO_THROW(path.centreline_mm(beyond - 1));
   wrong = right;
   wrong.parameter = PathParameter::value;
   wrong.loads = {0};

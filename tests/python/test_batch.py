@@ -92,7 +92,7 @@ def test_options(rod):
     ([(0, "w")], [[1]], "columns[0].component = 'w': must be 'x', 'y' or 'z', of a force"),
     ([(0, "tension")], [[1]], "columns[0].component = 'tension': must be 'x', 'y' or 'z', of a force"),
     ([(1, "x")], [[1]], "columns[0].component = 'x': must be 'tension', of a tendon"),
-    ([(0, "x"), (0, "x")], [[1, 1]], "columns[1] = 0.0: the column is given twice"),
+    ([(0, "x"), (0, "x")], [[1, 1]], "columns[1] = {0, 0}: the column is given twice"),
     ([0], [[1]], "columns[0] = 0: must be a list of (load, 'x', 'y', 'z' or 'tension')"),
     ([("0", "x")], [[1]], "columns[0] = ('0', 'x'): must be a list of (load, 'x', 'y', 'z' or 'tension')"),
     ("x", [[1]], "columns = 'x': must be a list of (load, 'x', 'y', 'z' or 'tension')"),
