@@ -1,5 +1,6 @@
 #include "fam/path.h"
 
+#include "fam/load_length.h"
 #include "fam/path_walk.h"
 
 #include <algorithm>
@@ -11,11 +12,22 @@ constexpr int most_points = 20'000;           // of a path with its branches; ch
 constexpr long long most_arcs = 100'000'000;  // minutes; chosen, not measured
 constexpr int fewest_places = 60;             // of a centreline
 constexpr int fewest_steps = 20;              // through the range, where the largest is not given
+constexpr double largest_change = 1e4;        // of loads, in one unit of the parameter; chosen, not measured
+
+// The range, or as much of it as changes the loads (size_of_change) by what a rod bears: steps, arcs and tolerances go
+// by it, and a range of 1e300 is no measure of them.
+double parameter_unit(const scene::PathRequest& request) {
+  const std::vector<scene::Span> from = scene::spans_of(scene::scene_at(request, request.from));
+  double way = request.to - request.from;
+  while (!(size_of_change(from, scene::spans_of(scene::scene_at(request, request.from + way))) <= largest_change))
+    way /= 2;
+  return std::abs(way);
+}
 
 PathWalk::Settings settings_for(const scene::PathRequest& request) {
   PathWalk::Settings settings;
   const auto [low, high] = std::minmax(request.from, request.to);
-  settings.range = {low, high, high - low};
+  settings.range = {low, high, parameter_unit(request)};
   settings.from = request.from;
   settings.to = request.to;
   for (const double stop : request.stop_at) {

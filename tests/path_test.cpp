@@ -305,6 +305,25 @@ TEST(Path, AStartThatMissesTheToleranceSaysSo) {
   EXPECT_EQ(path.message.find("tolerance_not_met: estimated error "), 0u) << path.message;
 }
 
+// A range that no rod bears: the path goes as far as the rod does, here until the tendon's path has no length, through
+// what a solve finds.
+TEST(Path, ARangeMayBeFarTooLong) {
+  const scene::Scene pulled =
+      uniform_rod(100, slender(1500, 1000), {Force{100, Frame::fixed, {-1, 0.01, 0}}, scene::Tendon{{0, 1}, 1, 100}});
+  for (const double to : {1e9, 1e300}) {
+    PathRequest request = load_path(pulled, 0, to);
+    request.stop_at = {10};
+    const scene::Path path = followed(request).points();
+    EXPECT_EQ(path.status, PathStatus::step_too_small) << path.message;
+    EXPECT_GT(path.points.back().parameter, 100);
+    const auto stop = std::find_if(path.points.begin(), path.points.end(),
+                                   [](const PathPoint& point) { return point.parameter == 10; });
+    ASSERT_NE(stop, path.points.end());
+    const scene::Equilibrium solved = fam::solve(scene::scene_at(request, 10));
+    EXPECT_LT((stop->tip_position_B_mm - solved.tip().position_B_mm).norm(), 2e-3 * 100);
+  }
+}
+
 TEST(Path, StopsAreMetOnce) {
   PathRequest request = load_path(tapered(), 2, 0);
   request.stop_at = {2, 0, 1.5, 1.5, 0.3};
