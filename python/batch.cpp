@@ -3,6 +3,8 @@
 
 #include "scene/load_visitor.h"
 
+#include <cstring>
+
 namespace fam_python {
 namespace {
 
@@ -47,8 +49,10 @@ BatchResult solve_batch(py::handle scene, py::handle columns, py::handle values,
   if (threads < 0) refuse("threads", py::int_(threads), "must be >= 0");
   options.threads = threads;
   const std::vector<BatchColumn> named = columns_of(columns, read);
-  const auto numbers = Numbers::ensure(values);  // as it is where it is C-contiguous and float64
-  if (!numbers || numbers.ndim() != 2) refuse("values", values, "must be an array of numbers, (rods, columns)");
+  const auto given = py::array::ensure(values);
+  const bool has_numbers = given && std::strchr("biufO", given.dtype().kind());  // not complex ones, dates, texts
+  const auto numbers = has_numbers ? Numbers::ensure(given) : Numbers();  // as it is where C-contiguous and float64
+  if (!has_numbers || !numbers || numbers.ndim() != 2) refuse("values", values, "must be an array of numbers, (rods, columns)");
   const Eigen::Map<const fam::RowMajorMatrix> rows(numbers.data(), numbers.shape(0), numbers.shape(1));
   const py::gil_scoped_release others_run;
   return fam::solve_batch(read, named, rows, options);

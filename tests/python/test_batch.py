@@ -99,6 +99,8 @@ def test_options(rod):
     ([(0, "x")], [[1, 2]], "values = 2 columns: must have 1, one for each of columns"),
     ([(0, "x")], [1, 2], "values = [1, 2]: must be an array of numbers, (rods, columns)"),
     ([(0, "x")], [["a"]], "values = [['a']]: must be an array of numbers, (rods, columns)"),
+    ([(0, "x")], np.array([[1 + 2j]]), "values = array([[1.+2.j]]): must be an array of numbers, (rods, columns)"),
+    ([(0, "x")], [["1"]], "values = [['1']]: must be an array of numbers, (rods, columns)"),
     ([(0, "x")], [[1], [math.nan]], "values[1][0] = nan: must be finite"),
     ([(1, "tension")], [[1], [2], [-0.5]], "values[2][0] = -0.5: must be >= 0")])
 def test_wrong_input(rod, columns, given, message):
