@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace fam {
 namespace {
@@ -86,19 +87,16 @@ bool PathWalk::hold_on_more_arcs(PathPlace& from, std::vector<Event>& events) {
   const PathChange curvature = curvature_;
   PathPlace finer = from;
   const bool refined = stepper_.refine(finer);
-  curvature_ = stepper_.equations().zero_change();
   const double allowed = stepper_.parameter_tolerance(coarse.front()->place.state.parameter);
   located_to_ = std::max(located_to, 0.01 * allowed / stepper_.unit());
   bool hold = !refined;
-  if (auto next = refined ? stepper_.step(finer, length_, curvature_) : std::nullopt; next && stepper_.judge(*next)) {
-    if (auto found = events_between(finer, *next)) {
-      const std::vector<Event*> fine = critical(*found);
-      hold = fine.size() == coarse.size();
-      for (std::size_t i = 0; hold && i < fine.size(); ++i) {
-        const double there = fine[i]->place.state.parameter, here = coarse[i]->place.state.parameter;
-        hold = std::abs(there - here) <= stepper_.parameter_tolerance(here);
-        if (coarse[i]->kind == Kind::branch && !coarse[i]->is_arrival) coarse[i]->parameter_on_more_arcs = there;
-      }
+  if (auto found = refined ? events_anew(finer) : std::nullopt) {
+    const std::vector<Event*> fine = critical(*found);
+    hold = fine.size() == coarse.size();
+    for (std::size_t i = 0; hold && i < fine.size(); ++i) {
+      const double there = fine[i]->place.state.parameter, here = coarse[i]->place.state.parameter;
+      hold = std::abs(there - here) <= stepper_.parameter_tolerance(here);
+      if (coarse[i]->kind == Kind::branch && !coarse[i]->is_arrival) coarse[i]->parameter_on_more_arcs = there;
     }
   }
   located_to_ = located_to;
@@ -107,14 +105,44 @@ bool PathWalk::hold_on_more_arcs(PathPlace& from, std::vector<Event>& events) {
   return hold;
 }
 
+// Of a step of length_ from a place on other arcs than before.
+std::optional<std::vector<PathWalk::Event>> PathWalk::events_anew(const PathPlace& from) {
+  curvature_ = stepper_.equations().zero_change();
+  auto next = stepper_.step(from, length_, curvature_);
+  return next && stepper_.judge(*next) ? events_between(from, *next) : std::nullopt;
+}
+
 // Whether the rod is within the tolerance at the parameters that the path stops at, and not only near those; else
 // `from` gets more arcs.
 bool PathWalk::stops_are_accurate(PathPlace& from, const std::vector<Event>& events) {
   for (const Event& event : events) {
     const bool is_stop = event.kind == Kind::regular || event.kind == Kind::end;
     if (is_stop && !stepper_.is_accurate(event.place) && stepper_.may_double())
-      return !stepper_.refine_for(event.place, from);
+      return from.is_fork ? !relocate(from) : !stepper_.refine_for(event.place, from);
   }
+  return true;
+}
+
+// A branch's start on twice the arcs: as they have its branch point, for carried over from fewer arcs it would lie on
+// the path that the branch leaves. False: not found.
+bool PathWalk::relocate(PathPlace& start) {
+  const int branch = path_.points.back().branch;
+  if (branch == 0) return false;  // a path that goes on from there
+  Fork& fork = forks_[static_cast<std::size_t>(branch) - 1];
+  const SavedPlace coarse = stepper_.saved(start);
+  PathPlace from = stepper_.restored(fork.before);
+  const double tried = std::exchange(length_, fork.length);
+  const auto events = stepper_.refine(from) ? events_anew(from).value_or(std::vector<Event>()) : std::vector<Event>();
+  length_ = tried;
+  const auto found = std::find_if(events.begin(), events.end(), [&](const Event& event) {
+    return event.kind == Kind::branch && event.multiplicity == fork.multiplicity;
+  });
+  if (found == events.end()) {
+    start = stepper_.restored(coarse);
+    return false;
+  }
+  fork.before = stepper_.saved(from);
+  start = stepper_.fork(found->place, fork.multiplicity);
   return true;
 }
 

@@ -99,7 +99,7 @@ void PathWalk::follow(PathPlace place, int branch, int multiplicity) {
     std::sort(events->begin(), events->end(), [](const Event& a, const Event& b) { return a.length < b.length; });
     steps_taken_.push_back({path_.points.size(), stops_.size(), forks_.size(), travelled_});
     for (const Event& event : *events) {
-      if (!emit(event, branch)) return;
+      if (!emit(place, event, branch)) return;
     }
     add(*next, Kind::regular, branch);
     if (static_cast<int>(path_.points.size()) >= settings_.most_points)
@@ -115,37 +115,50 @@ void PathWalk::follow(PathPlace place, int branch, int multiplicity) {
   }
 }
 
-// Whether the place, on other arcs now than when its point was added, lies beyond a critical point that is behind or
-// ahead of that.
+// Whether the place, on other arcs now than when its point was added, lies beyond a critical point or a stop that is
+// behind or ahead of that.
 bool PathWalk::is_beyond_point(const PathPlace& place) const {
   const PathPlace& point = places_.back().place;
   if (place.is_fork || point.is_fork) return false;
+  for (const double stop : settings_.stops) {
+    if ((place.state.parameter - stop) * (point.state.parameter - stop) < 0) return true;
+  }
   if (place.index && point.index) return *place.index != *point.index;
   return place.state.nodes.size() == point.state.nodes.size() &&
          place.determinant.negative != point.determinant.negative;
 }
 
-// On other arcs. A critical point that these put behind the place has been missed: the steps beyond it are undone.
+// On other arcs. What these put behind the place, a critical point or a stop, has been missed: the steps beyond it are
+// undone.
 void PathWalk::go_back(PathPlace& place) {
   const long long arcs = stepper_.equations().rod().arc_count();
+  const auto is_coarse = [&] { return stepper_.equations().rod().arc_count() < arcs; };
   for (; is_beyond_point(place) && !steps_taken_.empty(); steps_taken_.pop_back()) {
     const Before& before = steps_taken_.back();
-    if (places_[before.points - 1].place.is_fork) break;
+    const SavedPlace on_more_arcs = stepper_.saved(place);
+    place = stepper_.restored(places_[before.points - 1]);
+    const bool was_coarse = is_coarse();
+    while (is_coarse() && (place.is_fork ? relocate(place) : stepper_.refine(place))) continue;
+    if (place.is_fork && (is_coarse() || !was_coarse)) {
+      place = stepper_.restored(on_more_arcs);
+      break;
+    }
     path_.points.resize(before.points);
     places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(before.points), places_.end());
     stops_.resize(before.stops);
     forks_.erase(forks_.begin() + static_cast<std::ptrdiff_t>(before.forks), forks_.end());
     travelled_ = before.travelled;
-    place = stepper_.restored(places_.back());
-    while (stepper_.equations().rod().arc_count() < arcs && stepper_.refine(place)) continue;
   }
-  if (is_beyond_point(place)) {  // the first one
-    const scene::PathPoint point = path_.points.back();
-    path_.points.pop_back();
-    places_.pop_back();
-    add(place, point.kind, point.branch, point.multiplicity);
-  }
+  if (place.is_fork || is_beyond_point(place)) replace_last(place);  // the first one
   start_anew(place);
+}
+
+void PathWalk::replace_last(const PathPlace& place) {
+  const scene::PathPoint point = path_.points.back();
+  path_.points.pop_back();
+  places_.pop_back();
+  add(place, point.kind, point.branch, point.multiplicity);
+  if (place.is_fork) first_ = place;
 }
 
 // On another mesh: nothing is known of the path before.
@@ -206,14 +219,14 @@ bool PathWalk::is_fit(const PathPlace& from, const PathPlace& next) const {
 }
 
 // False: the path ends here.
-bool PathWalk::emit(const Event& event, int branch) {
+bool PathWalk::emit(const PathPlace& from, const Event& event, int branch) {
   std::optional<PathStatus> status = event.end;
   if (!status && settings_.ends_at && settings_.ends_at(event.place, event.kind)) status = PathStatus::reached;
   add(event.place, status ? Kind::end : event.kind, branch, event.multiplicity);
   if (event.parameter_on_more_arcs) path_.points.back().parameter = *event.parameter_on_more_arcs;
   if (event.kind == Kind::fold) stops_.push_back(event.place.state.parameter);
   if (event.kind == Kind::branch && !event.is_arrival && static_cast<int>(forks_.size()) < settings_.branches)
-    forks_.push_back({places_.back(), event.multiplicity});
+    forks_.push_back({places_.back(), event.multiplicity, stepper_.saved(from), length_});
   if (status) end(*status);
   return !status;
 }

@@ -62,18 +62,21 @@ class PathWalk {
   std::optional<PathPlace> take_step(PathPlace& from);
   bool is_beyond_point(const PathPlace& place) const;
   void go_back(PathPlace& place);
+  void replace_last(const PathPlace& place);
   bool is_fit(const PathPlace& from, const PathPlace& next) const;
   std::optional<std::vector<Event>> events_between(const PathPlace& from, const PathPlace& next);
   void add_turning_points(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
   void add_stops(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
   void add_closure(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
   bool hold_on_more_arcs(PathPlace& from, std::vector<Event>& events);
+  std::optional<std::vector<Event>> events_anew(const PathPlace& from);
   bool stops_are_accurate(PathPlace& from, const std::vector<Event>& events);
+  bool relocate(PathPlace& start);
   Event crossing(const PathPlace& from, const Event& near);
   std::optional<Event> located(const PathPlace& from, const PathPlace& next, Kind kind, const Test& test);
   Eigen::Matrix<double, 13, 1> away_from_start(const PathPlace& place) const;
   bool is_first_again(const PathPlace& place);
-  bool emit(const Event& event, int branch);
+  bool emit(const PathPlace& from, const Event& event, int branch);
   void add(const PathPlace& place, Kind kind, int branch, int multiplicity = 0);
   void end(scene::PathStatus status, const std::string& message = {});
 
@@ -86,6 +89,8 @@ class PathWalk {
   struct Fork {
     SavedPlace at;
     int multiplicity;
+    SavedPlace before;  // where the step began in which it was located, and that step
+    double length;
   };
   std::vector<Fork> forks_;
   PathPlace first_;  // of the branch that is followed

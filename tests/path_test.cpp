@@ -324,6 +324,43 @@ TEST(Path, ARangeMayBeFarTooLong) {
   }
 }
 
+// Near a branch point, of which few arcs tell the place to 4e-5: at stops that close to it the branch is met where it
+// is there, within the tolerance of a path that is a thousand times finer, and followed to its end.
+TEST(Path, StopsBesideABranchPoint) {
+  const double euler = std::numbers::pi * std::numbers::pi / 4;
+  const auto at = [](const scene::Path& path, double parameter) -> std::optional<Eigen::Vector3d> {
+    for (const PathPoint& point : path.points) {
+      if (point.branch == 1 && point.parameter == parameter) return point.tip_position_B_mm;
+    }
+    return std::nullopt;
+  };
+  for (const double off : {-1e-3, -1e-4, -3e-5, -1e-6, 0.0, 1e-7, 1e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3}) {
+    PathRequest request = load_path(column(), 0, 4);
+    request.branches = 1;
+    request.stop_at = {euler * (1 + off)};
+    const scene::Path path = followed(request).points();
+    fam::Options fine;
+    fine.tolerance_mm = 1e-6;
+    const scene::Path finer = fam::Path::follow(request, fine).points();
+    EXPECT_LT(path.points.back().tip_position_B_mm[0], 0.3) << off;  // straight: 1
+    EXPECT_EQ(path.points.back().index, 0) << off;
+    EXPECT_EQ(of_kind(path, Kind::branch).size(), 1u) << off;
+    const auto here = at(path, request.stop_at[0]), there = at(finer, request.stop_at[0]);
+    if (off < -1e-4) {
+      EXPECT_FALSE(here) << off;
+    }
+    if (off > 1e-5) {
+      ASSERT_TRUE(here && there) << off;
+    }
+    if (here && there) {
+      EXPECT_LT((*here - *there).norm(), 2e-3) << off;
+    }
+  }
+  PathRequest request = load_path(column(), 0, euler);
+  request.branches = 1;
+  EXPECT_LT(followed(request).points().points.back().tip_position_B_mm.tail<2>().norm(), 2e-3);
+}
+
 TEST(Path, StopsAreMetOnce) {
   PathRequest request = load_path(tapered(), 2, 0);
   request.stop_at = {2, 0, 1.5, 1.5, 0.3};
