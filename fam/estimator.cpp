@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace fam {
@@ -89,6 +90,13 @@ struct Estimator::Impl {
   bool fail(Status status, const std::string& message) {
     result.status = status;
     result.message = message;
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    for (VectorXd* values : {&result.mean, &result.sd}) values->setConstant(none);
+    result.covariance.setConstant(none);
+    std::fill(result.observable.begin(), result.observable.end(), false);
+    result.unobservable.clear();
+    result.chi_squared = none;
+    result.fits = false;
     solved_at_x = false;
     return false;
   }

@@ -23,7 +23,7 @@ namespace fam {
 struct Estimate {
   scene::Status status = scene::Status::not_converged;
   std::string message;  // empty when converged and the model fits
-  // In the order of the unknowns, in the units of the scene. NaN: not observable.
+  // In the order of the unknowns, in the units of the scene. NaN: not observable; all of it where not converged.
   Eigen::VectorXd mean, sd;
   std::vector<bool> observable;
   // The inverse of J^T J, J from no farther off than the last, small step; rows and columns of what is not observable

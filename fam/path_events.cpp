@@ -148,7 +148,7 @@ bool PathWalk::relocate(PathPlace& start) {
 
 void PathWalk::add_turning_points(const PathPlace& from, const PathPlace& next, std::vector<Event>& events) {
   const auto add_located = [&](Kind kind, int multiplicity, const Test& test) {
-    std::optional<Event> event = located(from, next, kind, test);
+    std::optional<Event> event = located(whole(from, next), kind, test);
     const double small = is_zero * std::max(std::abs(test(from)), std::abs(test(next)));
     if (!event || std::abs(test(event->place)) > small) event = Event{-1, from, kind, 0};
     event->multiplicity = multiplicity;
@@ -164,18 +164,29 @@ void PathWalk::add_turning_points(const PathPlace& from, const PathPlace& next, 
   }
 }
 
+// Of a step with a fold on either side of it: there the parameter turns back.
 void PathWalk::add_stops(const PathPlace& from, const PathPlace& next, std::vector<Event>& events) {
-  const auto passes = [&](double value) {
-    return (from.state.parameter - value) * (next.state.parameter - value) < 0 || next.state.parameter == value;
-  };
+  std::vector<Stretch> stretches{whole(from, next)};
+  for (const Event& fold : std::vector<Event>(events)) {
+    if (fold.kind != Kind::fold) continue;
+    stretches.push_back({fold.place, next, fold.length, length_});
+    Stretch& before = stretches[stretches.size() - 2];
+    before.next = fold.place;
+    before.end = fold.length;
+  }
+  for (const Stretch& stretch : stretches) add_stops(stretch, events);
+}
+
+void PathWalk::add_stops(const Stretch& within, std::vector<Event>& events) {
+  const double low = within.from.state.parameter, high = within.next.state.parameter;
   const auto add_located = [&](double value, std::optional<PathStatus> status) {
-    if (!passes(value)) return;
-    std::optional<Event> event = located(from, next, status ? Kind::end : Kind::regular,
+    if (!((low - value) * (high - value) < 0 || high == value)) return;
+    std::optional<Event> event = located(within, status ? Kind::end : Kind::regular,
                                          [&](const PathPlace& p) { return p.state.parameter - value; });
     if (event) {
       if (const auto exact = stepper_.at(event->place, value)) event->place = *exact;
     } else {
-      event = Event{-1, from, Kind::regular, 0};
+      event = Event{-1, within.from, Kind::regular, 0};
     }
     event->end = status;
     events.push_back(*event);
@@ -184,8 +195,8 @@ void PathWalk::add_stops(const PathPlace& from, const PathPlace& next, std::vect
   for (const double limit : {settings_.range.lowest, settings_.range.highest}) {
     const PathStatus status = limit == settings_.to ? PathStatus::reached : PathStatus::returned;
     const double outwards = limit == settings_.range.lowest ? -1 : 1;
-    if (outwards * (next.state.parameter - limit) < 0) continue;  // a start on new arcs may lie outside by round-off
-    if (outwards * (from.state.parameter - limit) >= 0) events.push_back({0, from, Kind::end, 0, status});
+    if (outwards * (high - limit) < 0) continue;  // a start on new arcs may lie outside by round-off
+    if (outwards * (low - limit) >= 0) events.push_back({within.start, within.from, Kind::end, 0, status});
     else add_located(limit, status);
   }
 }
@@ -216,7 +227,7 @@ void PathWalk::add_closure(const PathPlace& from, const PathPlace& next, std::ve
   const Eigen::Matrix<double, 13, 1> before = away_from_start(from), after = away_from_start(next);
   const Eigen::Matrix<double, 13, 1> way = after - before;
   if (!(before.dot(way) < 0 && after.dot(way) >= 0) || before.norm() > 2 * way.norm()) return;
-  const auto event = located(from, next, Kind::end, [&](PathPlace p) {
+  const auto event = located(whole(from, next), Kind::end, [&](PathPlace p) {
     stepper_.judge(p);  // for its tip
     return away_from_start(p).dot(way);
   });
@@ -228,11 +239,10 @@ void PathWalk::add_closure(const PathPlace& from, const PathPlace& next, std::ve
 // The zero of a test between two places, by secants (Illinois) from the place before it: near it, where the equations
 // may be singular, Newton's method then has next to nothing to do. Lengths from different places are not quite the
 // same, so the end of the bracket may come out as if it were the zero.
-std::optional<PathWalk::Event> PathWalk::located(const PathPlace& from, const PathPlace& next, Kind kind,
-                                                 const Test& test) {
-  PathPlace low = from, high = next;
-  double f_low = test(low), f_high = test(high), length = length_, done = 0;
-  if (f_high == 0) return Event{length, next, kind, 0};
+std::optional<PathWalk::Event> PathWalk::located(const Stretch& within, Kind kind, const Test& test) {
+  PathPlace low = within.from, high = within.next;
+  double f_low = test(low), f_high = test(high), done = within.start, length = within.end - done;
+  if (f_high == 0) return Event{within.end, high, kind, 0};
   int side = 0;
   for (int secant = 0; secant < most_secants; ++secant) {
     const double share = f_low / (f_low - f_high);

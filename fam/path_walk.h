@@ -66,14 +66,21 @@ class PathWalk {
   bool is_fit(const PathPlace& from, const PathPlace& next) const;
   std::optional<std::vector<Event>> events_between(const PathPlace& from, const PathPlace& next);
   void add_turning_points(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
-  void add_stops(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
   void add_closure(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
   bool hold_on_more_arcs(PathPlace& from, std::vector<Event>& events);
   std::optional<std::vector<Event>> events_anew(const PathPlace& from);
   bool stops_are_accurate(PathPlace& from, const std::vector<Event>& events);
   bool relocate(PathPlace& start);
   Event crossing(const PathPlace& from, const Event& near);
-  std::optional<Event> located(const PathPlace& from, const PathPlace& next, Kind kind, const Test& test);
+  // Between two places of a step: so far along it.
+  struct Stretch {
+    PathPlace from, next;
+    double start, end;
+  };
+  Stretch whole(const PathPlace& from, const PathPlace& next) const { return {from, next, 0, length_}; }
+  void add_stops(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
+  void add_stops(const Stretch& within, std::vector<Event>& events);
+  std::optional<Event> located(const Stretch& within, Kind kind, const Test& test);
   Eigen::Matrix<double, 13, 1> away_from_start(const PathPlace& place) const;
   bool is_first_again(const PathPlace& place);
   bool emit(const PathPlace& from, const Event& event, int branch);

@@ -480,6 +480,8 @@ TEST(Estimator, MeasurementsBeyondAllNumbersAreNoEstimate) {
     const fam::Estimate result = estimate(y_mm, sd_mm);
     EXPECT_EQ(result.status, scene::Status::not_finite) << y_mm << " " << sd_mm;
     EXPECT_NE(result.message, "");
+    EXPECT_TRUE(std::isnan(result.mean[0]) && std::isnan(result.sd[0]) && std::isnan(result.covariance(0, 0)));
+    EXPECT_FALSE(result.fits || result.observable[0]);
   }
 }
 

@@ -361,6 +361,30 @@ TEST(Path, StopsBesideABranchPoint) {
   EXPECT_LT(followed(request).points().points.back().tip_position_B_mm.tail<2>().norm(), 2e-3);
 }
 
+// Between two folds a stop is met three times, however near a fold it lies.
+TEST(Path, StopsBesideAFold) {
+  scene::Stiffness strip = slender(1500, 1e6);
+  strip.bending_Nmm2[0] = 1e6;
+  PathRequest request = load_path(uniform_rod(100, strip, {Force{100, Frame::fixed, {-0.6, 0, 0}}}), 0.6, -0.6);
+  request.parameter = PathParameter::value;
+  request.loads = {0};
+  request.component = 1;
+  const auto folds = of_kind(followed(request).points(), Kind::fold);
+  ASSERT_EQ(folds.size(), 2u);
+  const double low = std::min(folds[0].parameter, folds[1].parameter),
+               high = std::max(folds[0].parameter, folds[1].parameter);
+  for (const double share : {0.3, 0.03, 0.003, 3e-4}) {
+    request.stop_at = {std::lerp(low, high, share), std::lerp(high, low, share)};
+    const scene::Path path = followed(request).points();
+    for (const double stop : request.stop_at) {
+      EXPECT_EQ(std::count_if(path.points.begin(), path.points.end(),
+                              [&](const PathPoint& point) { return point.parameter == stop; }),
+                3)
+          << share;
+    }
+  }
+}
+
 TEST(Path, StopsAreMetOnce) {
   PathRequest request = load_path(tapered(), 2, 0);
   request.stop_at = {2, 0, 1.5, 1.5, 0.3};
