@@ -213,10 +213,12 @@ Eigen::Matrix<double, 13, 1> PathWalk::away_from_start(const PathPlace& place) c
   return away;
 }
 
-// On more arcs, too, than the first place.
+// On more arcs, too, than the first place; which a branch has from fewer arcs, as accurately as these tell its
+// parameter.
 bool PathWalk::is_first_again(const PathPlace& place) {
   const double inaccuracy_mm = first_.accuracy.error_mm + place.accuracy.error_mm;
-  const double near = closed_to + inaccuracies_apart * inaccuracy_mm / stepper_.equations().length_mm();
+  double near = closed_to + inaccuracies_apart * inaccuracy_mm / stepper_.equations().length_mm();
+  if (first_.is_fork) near += 2 * stepper_.parameter_tolerance(first_.state.parameter) / stepper_.unit();
   return away_from_start(place).norm() <= near;
 }
 

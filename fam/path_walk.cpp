@@ -139,7 +139,7 @@ void PathWalk::go_back(PathPlace& place) {
     place = stepper_.restored(places_[before.points - 1]);
     const bool was_coarse = is_coarse();
     while (is_coarse() && (place.is_fork ? relocate(place) : stepper_.refine(place))) continue;
-    if (place.is_fork && (is_coarse() || !was_coarse)) {
+    if (is_coarse() || !was_coarse) {  // on as many arcs the same steps would lead here again
       place = stepper_.restored(on_more_arcs);
       break;
     }

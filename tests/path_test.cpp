@@ -397,6 +397,27 @@ TEST(Path, StopsAreMetOnce) {
 }
 
 // No load at the start, and none of the column's own at its critical one.
+// Each of these once went round and round: a turned mesh with as many arcs undid the same step again and again; a
+// branch that closes was not known as closed, its start being that of six arcs and its end that of 384.
+TEST(Path, GoesRoundOnce) {
+  PathRequest request =
+      load_path(uniform_rod(100, slender(1500, 1000), {Force{100, Frame::fixed, {-1, 0, 0}}}), 0, 3.415254237288136);
+  request.branches = 1;
+  EXPECT_EQ(followed(request).points().status, PathStatus::reached);
+
+  scene::Stiffness strip = slender(1500, 1000);
+  strip.bending_Nmm2[0] = 75028.5628;
+  request = load_path(
+      uniform_rod(100, strip, {Force{100, Frame::fixed, {-0.8, 0, 0}}, scene::Tendon{{2, 0}, 0.5236490280647077, 100}}),
+      0.5, 2);
+  request.scene.sections[0].rest_curvature_per_mm = {0, 0, -0.010685371126485918};
+  request.parameter = PathParameter::value;
+  request.loads = {0};
+  request.component = 1;
+  request.branches = 2;
+  EXPECT_LT(followed(request).points().points.size(), 300u);
+}
+
 TEST(Path, HardStarts) {
   EXPECT_EQ(followed(load_path(column(), 0, 1)).points().status, PathStatus::reached);
   const double euler = std::numbers::pi * std::numbers::pi / 4;
