@@ -38,6 +38,14 @@ std::string moment(const std::string& value, const std::string& frame = "fixed",
   return R"({"kind":"moment","at":)" + at + R"(,"frame":")" + frame + R"(","value_Nmm":)" + value + "}";
 }
 
+// A line that begins with a star is a keyword of both programs.
+TEST(Deck, ATitleIsNoKeyword) {
+  const std::string scene =
+      R"({"title":"*STEP","rod":{"sections":[)" + circle + R"(]},"loads":[)" + force("\"tip\"", "[0,1,0]") + "]}";
+  for (const std::string format : {"abaqus", "calculix"})
+    EXPECT_EQ(exported(scene, "--format " + format).out.rfind("*HEADING\n *STEP\n", 0), 0u) << format;
+}
+
 // Written by hand from the manuals of both programs; that CalculiX's CIRC takes diameters was measured, see below. The
 // pressure: 4 M over the square of two diameters, and over the side of the square in the circle.
 TEST(Deck, SaysWhatTheSceneSays) {

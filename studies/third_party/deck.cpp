@@ -140,6 +140,7 @@ class Deck {
   std::string heading() const {
     std::string title = scene_.title.substr(0, 70);
     for (char& c : title) c = static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+    if (title.starts_with('*')) title.insert(0, " ");  // else a keyword
     return fmt::format("*HEADING\n{}\n** mm, N, MPa, t; {}\n", title, program());
   }
 
