@@ -6,7 +6,6 @@
 #include "fam/solve.h"
 #include "scene/load_visitor.h"
 #include "scene/scene_file.h"
-#include "studies/report/file_options.h"
 #include "studies/report/output_file.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,6 @@
 #include "apps/vtu_file.h"
 #include "fam/path.h"
 #include "scene/path_file.h"
-#include "studies/report/file_options.h"
 #include "studies/report/output_file.h"
 #include "studies/report/path_chart.h"
 

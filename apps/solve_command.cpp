@@ -7,7 +7,6 @@
 #include "scene/scene_file.h"
 #include "studies/compare/stopwatch.h"
 #include "studies/report/chart.h"
-#include "studies/report/file_options.h"
 #include "studies/report/output_file.h"
 
 #include <fmt/format.h>

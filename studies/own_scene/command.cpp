@@ -2,7 +2,6 @@
 
 #include "scene/scene_file.h"
 #include "studies/own_scene/comparison.h"
-#include "studies/report/file_options.h"
 #include "studies/report/output_file.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,7 @@
 #include "studies/report/output_file.h"
 
+#include <CLI/CLI.hpp>
+
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -46,6 +48,17 @@ void rename_partial(const std::filesystem::path& path) {
   if (error) cannot_be_written(path, error.message());
 }
 
+// Devices and pipes, such as /dev/null, may be written to twice.
+bool is_same_file(const std::string& a, const std::string& b) {
+  if (a.empty() || a == "-" || b.empty() || b == "-") return false;
+  std::error_code error;
+  if (std::filesystem::exists(a, error) && !std::filesystem::is_regular_file(a, error)) return false;
+  const auto canonical = [&](const std::string& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
+  };
+  return std::filesystem::equivalent(a, b, error) || canonical(a) == canonical(b);
+}
+
 }  // namespace
 
 void write_file(const std::filesystem::path& path, const std::string& text) {
@@ -74,6 +87,21 @@ void make_folder(const std::filesystem::path& path) {
   const std::filesystem::path probe = path / ".probe";
   write_file(probe, "");
   std::filesystem::remove(probe);
+}
+
+CLI::Option* add_file_option(CLI::App* command, const std::string& option, std::string& path, const std::string& what) {
+  const auto no_name = [](const std::string& text) { return text.empty() ? "must name a file" : ""; };
+  return command->add_option(option, path, what)->check(CLI::Validator(no_name, "FILE"));
+}
+
+void refuse_overwriting(const NamedFiles& inputs, const NamedFiles& outputs) {
+  NamedFiles before = inputs;
+  for (const auto& [option, path] : outputs) {
+    for (const auto& [name, other] : before) {
+      if (is_same_file(path, other)) throw CLI::ValidationError(option, "names the file of " + name);
+    }
+    before.emplace_back(option, path);
+  }
 }
 
 }  // namespace studies

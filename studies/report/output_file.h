@@ -1,10 +1,18 @@
-// Result files: written whole under another name and then renamed, so that none is ever half-written.
+// Result files: written whole under another name and then renamed, so that none is ever half-written; and the options
+// of commands that name files.
 #pragma once
 
 #include <filesystem>
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace studies {
 
@@ -21,5 +29,12 @@ void write_files(const std::filesystem::path& folder, const std::map<std::string
 
 // Makes a folder that files can be written to; throws likewise.
 void make_folder(const std::filesystem::path& path);
+
+CLI::Option* add_file_option(CLI::App* command, const std::string& option, std::string& path, const std::string& what);
+
+// Wrong usage: an output that would overwrite an input, or an output before it. Pairs of what is said and of the path,
+// which may be empty or -.
+using NamedFiles = std::vector<std::pair<std::string, std::string>>;
+void refuse_overwriting(const NamedFiles& inputs, const NamedFiles& outputs);
 
 }  // namespace studies

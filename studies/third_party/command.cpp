@@ -1,7 +1,6 @@
 #include "studies/third_party/command.h"
 
 #include "scene/scene_file.h"
-#include "studies/report/file_options.h"
 #include "studies/report/output_file.h"
 
 #include <fmt/format.h>
