@@ -16,11 +16,13 @@ int negative_eigenvalues(const Matrix3d& matrix, double determinant) {
   return static_cast<int>((matrix.eigenvalues().real().array() < 0).count());
 }
 
-bool smallest_eigenvalue_is_negative(const Matrix3d& matrix) {
-  const Eigen::Vector3cd values = matrix.eigenvalues();
+// Of one that is singular but for round-off.
+int negative_eigenvalues_but_smallest(const Matrix3d& matrix) {
+  Eigen::Vector3cd values = matrix.eigenvalues();
   Eigen::Index smallest;
   values.cwiseAbs().minCoeff(&smallest);
-  return values[smallest].real() < 0;
+  values[smallest] = 0;
+  return static_cast<int>((values.real().array() < 0).count());
 }
 
 }  // namespace
@@ -60,9 +62,9 @@ Stability stability(const LoadedRod<3>& rod, std::span<const ArcRange> segments,
   Stability result;
   const bool finite = march_free_tip(rod, segments, nodes, [&](const Matrix3d& turn, bool at_clamp) {
     const double determinant = turn.determinant();
-    result.conjugate_points += negative_eigenvalues(turn, determinant);
+    result.conjugate_points +=
+        is_free && at_clamp ? negative_eigenvalues_but_smallest(turn) : negative_eigenvalues(turn, determinant);
     result.log_determinant += std::log(std::abs(determinant));
-    if (is_free && at_clamp && smallest_eigenvalue_is_negative(turn)) --result.conjugate_points;
   });
   if (!finite && !is_free) result.log_determinant = std::numeric_limits<double>::quiet_NaN();
   return result;
