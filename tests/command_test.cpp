@@ -136,6 +136,7 @@ TEST(Command, WrongUsageNamesWhatIsWrong) {
   };
   EXPECT_EQ(refused(fam, "slove"), "The following argument was not expected: slove");
   EXPECT_EQ(refused(fam_studies, "random scenes"), "The following argument was not expected: scenes");
+  EXPECT_NE(refused(fam_studies, "random scene 99999999999999999999"), "");
   EXPECT_EQ(refused(fam, ""), "A subcommand is required");
   EXPECT_EQ(refused(fam, "solve " + scene + " --twist-order twist_bend"), "--twist-order: needs --law published");
   EXPECT_EQ(refused(fam, "solve " + scene + " --svg \"\""), "--svg: must name a file");

@@ -8,6 +8,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <limits>
+
 namespace studies {
 namespace {
 
@@ -37,7 +40,8 @@ void add_random_commands(CLI::App& random, const Progress::Style& progress, std:
     fmt::print("{}", scene::write_scene(random_scene(a.seed)));
     return 0;
   });
-  scene->add_option("seed", a.seed)->required()->check(CLI::NonNegativeNumber);
+  constexpr auto largest_number = std::numeric_limits<std::uint64_t>::max();  // which larger ones are read as
+  scene->add_option("seed", a.seed)->required()->check(CLI::Range(std::uint64_t{0}, largest_number - 1));
 
   const CLI::Validator whole_blocks(
       [](const std::string& text) {
