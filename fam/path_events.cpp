@@ -14,6 +14,7 @@ namespace {
 
 using scene::PathStatus;
 
+constexpr double stops_to = 1e-9;            // of the unit, where a stop is singular; else to round-off
 constexpr double unexplained_length = 1e-8;  // where changes of the index are taken as they are
 constexpr int most_secants = 60;
 constexpr double is_zero = 1e-3;  // of a test's larger value at the ends of the step; chosen, not measured
@@ -183,11 +184,10 @@ void PathWalk::add_stops(const Stretch& within, std::vector<Event>& events) {
     if (!((low - value) * (high - value) < 0 || high == value)) return;
     std::optional<Event> event = located(within, status ? Kind::end : Kind::regular,
                                          [&](const PathPlace& p) { return p.state.parameter - value; });
-    if (event) {
-      if (const auto exact = stepper_.at(event->place, value)) event->place = *exact;
-    } else {
-      event = Event{-1, within.from, Kind::regular, 0};
-    }
+    if (const auto exact = event ? stepper_.at(event->place, value) : std::nullopt) event->place = *exact;
+    if (event && std::abs(event->place.state.parameter - value) <= stops_to * stepper_.unit())
+      event->place.state.parameter = value;
+    else event = Event{-1, within.from, Kind::regular, 0};
     event->end = status;
     events.push_back(*event);
   };

@@ -120,9 +120,11 @@ void PathWalk::follow(PathPlace place, int branch, int multiplicity) {
 bool PathWalk::is_beyond_point(const PathPlace& place) const {
   const PathPlace& point = places_.back().place;
   if (place.is_fork || point.is_fork) return false;
-  for (const double stop : settings_.stops) {
-    if ((place.state.parameter - stop) * (point.state.parameter - stop) < 0) return true;
-  }
+  const auto lies_between = [&](double stop) {
+    return (place.state.parameter - stop) * (point.state.parameter - stop) < 0;
+  };
+  if (std::any_of(settings_.stops.begin(), settings_.stops.end(), lies_between)) return true;
+  if (lies_between(settings_.range.lowest) || lies_between(settings_.range.highest)) return true;
   if (place.index && point.index) return *place.index != *point.index;
   return place.state.nodes.size() == point.state.nodes.size() &&
          place.determinant.negative != point.determinant.negative;

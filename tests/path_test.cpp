@@ -431,6 +431,21 @@ TEST(Path, GoesRoundOnce) {
   EXPECT_LT(followed(request).points().points.size(), 300u);
 }
 
+// A tendon lets go of a buckled round rod, which may turn then at no cost: the path ends there and not a little before
+// or beyond.
+TEST(Path, EndsAtItsEnd) {
+  PathRequest request = load_path(
+      uniform_rod(100, slender(1500, 1000), {scene::Tendon{{2, 0}, 0, 100}, Force{100, Frame::fixed, {-0.5, 0, 0}}}), 5,
+      0);
+  request.parameter = PathParameter::value;
+  request.loads = {0};
+  const scene::Path path = followed(request).points();
+  EXPECT_EQ(path.status, PathStatus::reached) << path.message;
+  EXPECT_EQ(path.points.back().parameter, 0);
+  const scene::Equilibrium free = fam::solve(scene::scene_at(request, 1e-3));
+  EXPECT_NEAR(path.points.back().tip_position_B_mm[0], free.tip().position_B_mm[0], 0.2);
+}
+
 TEST(Path, HardStarts) {
   EXPECT_EQ(followed(load_path(column(), 0, 1)).points().status, PathStatus::reached);
   const double euler = std::numbers::pi * std::numbers::pi / 4;
