@@ -165,7 +165,7 @@ void PathWalk::add_turning_points(const PathPlace& from, const PathPlace& next, 
   }
 }
 
-// Of a step with a fold on either side of it: there the parameter turns back.
+// Where the step has a fold, on either side of that: there the parameter turns back.
 void PathWalk::add_stops(const PathPlace& from, const PathPlace& next, std::vector<Event>& events) {
   std::vector<Stretch> stretches{whole(from, next)};
   for (const Event& fold : std::vector<Event>(events)) {

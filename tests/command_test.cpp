@@ -159,6 +159,9 @@ TEST(Command, WrongUsageNamesWhatIsWrong) {
   EXPECT_EQ(refused(fam_studies, "export " + own + " --format abaqus --output " + own),
             "--output: names the file of the scene");
   EXPECT_EQ(contents(own), contents(scene));
+  const std::string long_name(300, 'a');  // of which the file system knows no place
+  EXPECT_NE(refused(fam, "solve " + long_name + ".json --svg " + long_name + ".svg").find("must be a readable"),
+            std::string::npos);
   EXPECT_EQ(run(fam, "solve " + own + " --svg /dev/null --vtu /dev/null").exit_status, 0);
   const std::string nowhere = (scratch() / "nowhere").string();
   EXPECT_EQ(refused(fam_studies, "random sum " + nowhere + " out"), nowhere + ": No such file or directory");

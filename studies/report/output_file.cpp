@@ -56,7 +56,8 @@ bool is_same_file(const std::string& a, const std::string& b) {
   const auto canonical = [&](const std::string& path) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
   };
-  return std::filesystem::equivalent(a, b, error) || canonical(a) == canonical(b);
+  const std::filesystem::path whole = canonical(a);
+  return std::filesystem::equivalent(a, b, error) || (!whole.empty() && whole == canonical(b));  // empty: no name
 }
 
 }  // namespace
