@@ -39,7 +39,10 @@ EstimationRows::EstimationRows(scene::EstimationProblem problem, const Options& 
 }
 
 void EstimationRows::bound(VectorXd& x) const {
-  for (Index k = 0; k < x.size(); ++k) x[k] = within_bounds(unknown(k), given_, x[k] * unit_[k]) / unit_[k];
+  for (Index k = 0; k < x.size(); ++k) {
+    const double value = x[k] * unit_[k], nearest = within_bounds(unknown(k), given_, value);
+    if (nearest != value) x[k] = nearest / unit_[k];
+  }
 }
 
 void EstimationRows::put(const VectorXd& x) {

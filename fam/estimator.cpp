@@ -1,17 +1,14 @@
 #include "fam/estimator.h"
 
-#include "fam/eigenvectors.h"
-#include "fam/estimation_rows.h"
+#include "fam/least_squares.h"
 #include "fam/measured_rows.h"
+#include "fam/place_cells.h"
 #include "fam/posterior.h"
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace fam {
 namespace {
@@ -26,24 +23,11 @@ using Start = Solver::Start;
 using UnknownKind = scene::Unknown::Kind;
 
 // All chosen, not measured.
-constexpr int most_iterations = 200;
-constexpr double first_damping = 1e-3, warm_damping = 1e-9, least_damping = 1e-12, most_damping = 1e12;
-constexpr double least_scaling = 1e-6;  // of the damping matrix, of its largest
-constexpr double converged_decrease = 1e-8;
-constexpr double flat_decrease = 1e-6;       // of 1 + chi-squared: the model's own error may hide what is less
-constexpr double small_step = 0.01;          // in standard deviations
-constexpr double least_information = 1e-12;  // of the largest, below which a step would be round-off
-constexpr double clear_information = 1e-9;   // of pivots, above which no direction is near that
-constexpr double longest_step = 2;           // in the unknowns' own units
-constexpr double longest_place_step = 0.2;   // of the length
-constexpr double good_share = 0.9;           // of the decrease that a step promised: the damping falls fast
-// Of steps that fall faster the closer they end to where their slopes were taken, a rate that steps of at most so many
-// standard deviations tell; the last step is left to three times that. Measured on 2200 estimates of the study's tip
-// forces and contacts: 20 are left more than 1e-4 deviations off, none more than 1.4e-3; with a rate from longer steps
-// 0.09.
-constexpr double longest_reach = 10, sure_rate = 3;
-constexpr double least_change = 0.1;  // of a step, to one turned down: else it would be, too
-constexpr int more_starts = 12;       // where places are unknown and the first minimum does not fit
+constexpr int more_starts = 12;         // where places are unknown and the first minimum does not fit
+constexpr double counting = 30;         // above the lowest chi-squared, a minimum that still counts
+constexpr double reach_of_corners = 5;  // in standard deviations: corners within it are looked behind
+constexpr double clearly_lower = 1;     // of chi-squared: a place to which a search did not come to its end
+constexpr int most_cell_steps = 30;     // in a cell
 
 // The digits of a number mirrored at the point: 1/2, 1/4, 3/4, ... of base 2 (Halton, Numer. Math. 2, 1960).
 double radical_inverse(int number, int base) {
@@ -55,37 +39,40 @@ double radical_inverse(int number, int base) {
 }  // namespace
 
 struct Estimator::Impl {
-  EstimationRows rows;
+  LeastSquares fit;
+  EstimationRows& rows;
+  const PlaceCells& cells;
   Estimate result;
 
-  // Of Gauss-Newton: x, where the rods stand, and rows at x and at the trial.
-  VectorXd x, stand, start, trial, turned_down, moved, gradient, scaling, along, residual, trial_residual;
-  MatrixXd slopes, information, damped, vectors;
-  Eigen::LDLT<MatrixXd> factors, damped_factors;  // of the information, damped
   Posterior posterior;
-  bool solved_at_x = false;  // the rods, and the slopes are those at x or near it
-  bool has_factors = false;  // of these slopes
+  VectorXd before, start;
+  // Of the cells looked at.
+  std::vector<CellMinimum> minima;
+  std::size_t minima_count = 0, lowest = 0, searched_cells = 0;
+  MatrixXd second_moment;
 
   Impl(scene::EstimationProblem problem, const Options& asked)
-      : rows(std::move(problem), asked), posterior(static_cast<Index>(rows.given().unknowns.size())) {
+      : fit(std::move(problem), asked), rows(fit.rows()), cells(fit.cells()), posterior(fit.x().size()) {
+    const Index count = fit.x().size();
     result.problem = rows.given();
-    take_memory(rows.unit().size());
-    for (Index k = 0; k < x.size(); ++k) x[k] = rows.prior_mean(k);
-    rows.bound(x);
-  }
-
-  void take_memory(Index count) {
-    for (VectorXd* v :
-         {&x, &stand, &start, &trial, &turned_down, &moved, &gradient, &scaling, &along, &result.mean, &result.sd})
-      v->resize(count);
-    for (VectorXd* v : {&residual, &trial_residual}) v->resize(rows.count());
-    slopes.resize(rows.count(), count);
-    for (MatrixXd* m : {&information, &damped, &vectors, &result.covariance}) m->resize(count, count);
-    for (Eigen::LDLT<MatrixXd>* f : {&factors, &damped_factors}) *f = Eigen::LDLT<MatrixXd>(count);
+    for (VectorXd* v : {&before, &start, &result.mean, &result.sd}) v->resize(count);
+    for (MatrixXd* m : {&second_moment, &result.covariance}) m->resize(count, count);
     result.observable.resize(static_cast<std::size_t>(count));
+    take_minima();
   }
 
-  const Unknown& unknown(Index k) const { return rows.unknown(k); }
+  void take_minima() {
+    const Index count = start.size();
+    std::size_t most = 1;
+    for (Index k = 0; k < count; ++k) most += cells.count(k) - 1;
+    minima.assign(most, {VectorXd(count), 0, MatrixXd(count, count), VectorXd(count), 0, {}});
+  }
+
+  // Where a sensor was moved.
+  void renew_cells() {
+    fit.renew_cells();
+    take_minima();
+  }
 
   bool fail(Status status, const std::string& message) {
     result.status = status;
@@ -97,195 +84,31 @@ struct Estimator::Impl {
     result.unobservable.clear();
     result.chi_squared = none;
     result.fits = false;
-    solved_at_x = false;
+    fit.forget_rods();
     return false;
-  }
-
-  // Residual and slopes at x; false where the rods cannot be solved there. Where they stand there already only the
-  // measurements are new.
-  bool evaluate() {
-    if (!solved_at_x && !rows.solve(x, Start::unloaded)) return fail(rows.status(), rows.message());
-    if (!rows.put_residual(x, residual)) return fail(Status::not_finite, "a position or wrench is not finite");
-    return solved_at_x || renew_slopes();
-  }
-
-  bool renew_slopes() {
-    has_factors = false;
-    solved_at_x = rows.put_slopes(slopes);
-    return solved_at_x || fail(Status::not_finite, "a derivative is not finite");
-  }
-
-  // Shortens a step to what the unknowns may change by at once.
-  void limit(VectorXd& step) const {
-    double share = 1;
-    for (Index k = 0; k < step.size(); ++k) {
-      const double most = unknown(k).kind == UnknownKind::place ? longest_place_step : longest_step;
-      share = std::min(share, most / std::max(std::abs(step[k]), most));
-    }
-    step *= share;
-  }
-
-  // The full step's size in standard deviations, the root of what it could bring chi-squared down by: g^T H^-1 g where
-  // H is not small.
-  double full_step() {
-    if (!has_factors) {
-      information.noalias() = slopes.transpose() * slopes;
-      factors.compute(information);
-      has_factors = true;
-    }
-    gradient.noalias() = slopes.transpose() * residual;
-    return information.diagonal().maxCoeff() > 0 ? std::sqrt(possible_decrease()) : 0;
-  }
-
-  double possible_decrease() {
-    if (factors.vectorD().minCoeff() > clear_information * factors.vectorD().maxCoeff()) {
-      along = factors.solve(gradient);
-      return gradient.dot(along);
-    }
-    damped = information;
-    diagonalise(damped, vectors);
-    along.noalias() = vectors.transpose() * gradient;
-    const double largest = damped.diagonal().maxCoeff();
-    double decrease = 0;
-    for (Index k = 0; k < along.size(); ++k) {
-      if (damped(k, k) > least_information * largest) decrease += along[k] * along[k] / damped(k, k);
-    }
-    return decrease;
-  }
-
-  // A step with this damping to `trial`; what it promises to bring chi-squared down by.
-  double step(double damping) {
-    damped = information;
-    damped.diagonal() += damping * scaling;
-    damped_factors.compute(damped);
-    moved = damped_factors.solve(gradient);
-    moved = -moved;
-    limit(moved);
-    trial = x + moved;
-    rows.bound(trial);
-    moved = trial - x;
-    along.noalias() = information * moved;
-    return -(2 * gradient.dot(moved) + moved.dot(along));
-  }
-
-  // To a trial that brings chi-squared down; what that step promised, or nothing where there is none. Each starts from
-  // x: what was turned down may lie on another branch.
-  std::optional<double> descend(double& damping, double chi_squared, double possible) {
-    for (turned_down = x; damping <= most_damping; damping *= 10) {
-      const double promised = step(damping);
-      if (trial == x) break;
-      if ((trial - turned_down).norm() < least_change * moved.norm()) continue;
-      turned_down = trial;
-      const bool solved = rows.solve(trial, solved_at_x ? Start::last_solution : Start::unloaded);
-      if (solved && rows.put_residual(trial, trial_residual) && trial_residual.squaredNorm() < chi_squared)
-        return promised;
-      solved_at_x = rows.go_back() && solved_at_x;
-      if (possible <= flat_decrease * (1 + chi_squared)) break;
-    }
-    return std::nullopt;
-  }
-
-  // Steps in standard deviations. Each leaves to the next one a share that grows with how far its end is from where its
-  // slopes were taken, at the rate that the last one told.
-  struct Steps {
-    double way = 0;  // since the slopes were taken
-    double last_size = 0, last_reach = 0, rate = HUGE_VAL;
-
-    void take(double size) {
-      last_size = size;
-      last_reach = way += size;
-    }
-    void see_left(double size) {
-      rate = last_size > 0 && last_reach < longest_reach ? size / (last_size * last_reach) : HUGE_VAL;
-    }
-    double left_by(double size, double from_way) const { return rate * size * (from_way + size); }
-    // Whether what this step leaves is small, so that the rods need not be solved there.
-    bool is_last(double size, double from_way, double small) const {
-      return sure_rate * left_by(size, from_way) <= small;
-    }
-    // Old slopes do for the last step but one, not for the last, nor for what it tells.
-    bool want_new_slopes(double size, double small) const {
-      const bool is_last_but_one = left_by(left_by(size, way), 0) <= small;
-      return way > small_step && (size <= small || is_last(size, 0, small) || !is_last_but_one);
-    }
-  };
-
-  // False: a bound or a limit shortens the step.
-  bool take_last_step(double size) {
-    if (!(step(least_damping) > good_share * size * size)) return false;
-    x.swap(trial);
-    residual.noalias() += slopes * moved;
-    return true;
-  }
-
-  bool minimise() {
-    const bool warm = solved_at_x;
-    if (!evaluate()) return false;
-    double damping = warm ? warm_damping : first_damping, chi_squared = residual.squaredNorm();
-    bool as_promised = true;
-    Steps steps;
-    for (result.iterations = 0; result.iterations < most_iterations; ++result.iterations) {
-      const double small = std::sqrt(converged_decrease * (1 + chi_squared));
-      double size = full_step();
-      steps.see_left(size);
-      if (!as_promised || steps.want_new_slopes(size, small)) {
-        if (!renew_slopes()) return false;
-        steps.way = 0;
-        steps.see_left(size = full_step());
-      }
-      stand = x;
-      if (!std::isfinite(chi_squared + size))
-        return fail(Status::not_finite, "chi-squared overflows: measurements by far too many of their deviations away");
-      if (!(size > small)) return true;
-      if (solved_at_x && steps.is_last(size, steps.way, small) && take_last_step(size)) return true;
-      scaling = information.diagonal().cwiseMax(least_scaling * information.diagonal().maxCoeff());
-      const std::optional<double> promised = descend(damping, chi_squared, size * size);
-      if (!promised && solved_at_x && steps.way > 0) {
-        as_promised = false;
-        continue;
-      }
-      if (!promised) return is_flat(chi_squared);
-      steps.take(std::sqrt(moved.dot(along)));
-      x.swap(trial);
-      residual.swap(trial_residual);
-      solved_at_x = true;
-      const double decrease = chi_squared - residual.squaredNorm();
-      as_promised = decrease > good_share * *promised;
-      damping = std::max(least_damping, damping * (as_promised ? 1e-3 : 0.1));
-      chi_squared -= decrease;
-    }
-    return fail(Status::not_converged, "200 iterations");
-  }
-
-  // No step brought chi-squared down (the model's own error is reached, or a bound holds the unknowns): at a minimum
-  // where next to nothing is left in unknowns that are not at their bounds.
-  bool is_flat(double chi_squared) {
-    for (Index k = 0; k < x.size(); ++k) {
-      moved = x;
-      moved[k] -= std::copysign(1e-9, gradient[k]);
-      rows.bound(moved);
-      if (moved[k] == x[k]) gradient[k] = 0;
-    }
-    return possible_decrease() <= flat_decrease * (1 + chi_squared) ||
-           fail(Status::not_converged, "no step brings chi-squared down");
   }
 
   // Covariance, what is observed, and whether the model fits.
   void judge() {
-    posterior.set(slopes.topRows(rows.measured_count()), rows.prior_sd());
-    tell(posterior, x, rows.unit(), result);
-    result.chi_squared = residual.squaredNorm();
-    result.degrees_of_freedom = static_cast<int>(residual.size() - x.size()) + posterior.free_directions();
+    posterior.set(fit.slopes().topRows(rows.measured_count()), rows.prior_sd());
+    tell(posterior, fit.x(), rows.unit(), result);
+    result.chi_squared = fit.residual().squaredNorm();
+    result.degrees_of_freedom = static_cast<int>(fit.residual().size() - fit.x().size()) + posterior.free_directions();
     result.fits = result.chi_squared <= chi_squared_999(result.degrees_of_freedom);
   }
 
-  // From where x is.
-  bool search() {
-    const bool found = minimise();
-    if (!found) return false;
+  bool search(const LeastSquares::Limits& limits = {}) {
+    const bool found = fit.minimise(limits);
+    result.iterations = fit.iterations();
+    if (!found) return fail(fit.status(), fit.message());
     result.status = Status::converged;
     judge();
     return true;
+  }
+
+  bool search_from(const VectorXd& x) {
+    fit.start_at(x);
+    return search();
   }
 
   bool has_unknown_place() const {
@@ -294,16 +117,15 @@ struct Estimator::Impl {
   }
 
   // Places spread over the rod, all else where priors have it.
-  void set_start(int number) {
+  VectorXd spread_start(int number) const {
     static constexpr std::array bases{2, 3, 5, 7, 11, 13};
     std::size_t place = 0;
+    VectorXd x(fit.x().size());
     for (Index k = 0; k < x.size(); ++k) {
-      const Unknown& u = unknown(k);
-      x[k] = rows.prior_mean(k);
-      if (u.kind == UnknownKind::place) x[k] = radical_inverse(number, bases[place++ % bases.size()]);
+      const bool is_place = rows.unknown(k).kind == UnknownKind::place;
+      x[k] = is_place ? radical_inverse(number, bases[place++ % bases.size()]) : rows.prior_mean(k);
     }
-    rows.bound(x);
-    solved_at_x = false;
+    return x;
   }
 
   // Where a load stands has several minima: where the first one does not fit, others are looked for.
@@ -311,30 +133,101 @@ struct Estimator::Impl {
     VectorXd best_x;
     double best = HUGE_VAL;
     const auto keep = [&] {
-      if (result.converged() && result.chi_squared < best) best = result.chi_squared, best_x = x;
+      if (result.converged() && result.chi_squared < best) best = result.chi_squared, best_x = fit.x();
     };
     keep();
     for (int number = 1; number <= more_starts && !(result.converged() && result.fits); ++number) {
-      set_start(number);
-      if (search()) keep();
+      if (search_from(spread_start(number))) keep();
     }
-    if (best == HUGE_VAL) return false;
-    x = best_x;
-    solved_at_x = false;
-    return search();
+    return best < HUGE_VAL && search_from(best_x);
+  }
+
+  // From the middle of a place's cell, all else as at the lowest minimum. Where chi-squared falls ever more slowly
+  // along a valley (a force that grows towards the clamp), where it was left counts too.
+  void search_cell(Index place, std::size_t number) {
+    ++searched_cells;
+    const PlaceCells::Cell cell = cells.cell(place, number);
+    start = minima[lowest].x;
+    start[place] = (std::max(cell.low, 0.0) + std::min(cell.high, 1.0)) / 2;
+    fit.start_at(start);
+    const double most = minima[lowest].chi_squared + counting;
+    if (search({place, most, most_cell_steps})) {
+      keep_minimum(place, 0);
+    } else if (fit.has_value()) {
+      judge();
+      if (result.chi_squared < most) keep_minimum(place, clearly_lower);
+    }
+  }
+
+  void keep_minimum(Index place, double lower_by) {
+    CellMinimum& minimum = minima[minima_count];
+    minimum.x = fit.x();
+    minimum.chi_squared = result.chi_squared;
+    minimum.covariance = posterior.covariance();
+    minimum.gradient.noalias() = fit.slopes().transpose() * fit.residual();
+    minimum.place = place;
+    minimum.cell = cells.cell(place, cells.number_at(place, minimum.x[place]));
+    if (minimum.chi_squared < minima[lowest].chi_squared - lower_by) lowest = minima_count;
+    ++minima_count;
+  }
+
+  // Whether a corner at the end of this cell is near the lowest minimum.
+  bool is_within_reach(Index place, std::size_t number) const {
+    const CellMinimum& best = minima[lowest];
+    const PlaceCells::Cell cell = cells.cell(place, number);
+    const double reach = reach_of_corners * std::sqrt(best.covariance(place, place));
+    return cell.low - best.x[place] < reach && best.x[place] - cell.high < reach;
+  }
+
+  // Of the places with corners, the one that is the fewest deviations off one.
+  Index nearest_to_a_corner() const {
+    Index nearest = 0;
+    double least = HUGE_VAL;
+    for (Index k = 0; k < fit.x().size(); ++k) {
+      if (!cells.has_corners(k)) continue;
+      const double x = fit.x()[k];
+      const PlaceCells::Cell cell = cells.cell(k, cells.number_at(k, x));
+      const double off = std::min(x - cell.low, cell.high - x) / std::sqrt(posterior.covariance()(k, k));
+      if (off < least) least = off, nearest = k;
+    }
+    return nearest;
+  }
+
+  // To the lowest minimum, of the other cells of each place in turn, too: all of them, or those whose corners are near.
+  // Its covariance is that of all that count.
+  bool settle_among_cells(bool all) {
+    minima_count = lowest = searched_cells = 0;
+    keep_minimum(nearest_to_a_corner(), 0);
+    for (Index k = 0; k < start.size(); ++k) {
+      const std::size_t here = cells.number_at(k, minima[lowest].x[k]);
+      for (std::size_t number = 0; number < cells.count(k); ++number) {
+        const bool is_next = number + 1 == here || number == here + 1;
+        if (number != here && (all || (is_next && is_within_reach(k, number)))) search_cell(k, number);
+      }
+    }
+    if (searched_cells == 0) return true;
+    if (!search_from(minima[lowest].x)) return false;
+    put_second_moment(cells, {minima.data(), minima_count}, minima[lowest], LeastSquares::longest_step, second_moment);
+    put_covariance(second_moment, rows.unit(), result);
+    return true;
   }
 
   const Estimate& track() {
-    start = x;
-    if (solved_at_x) x = stand;
+    before = fit.x();
+    const bool warm = fit.is_solved();
+    if (warm) fit.start_where_rods_stand();
     bool found = search();
-    if ((!found || !result.fits) && has_unknown_place()) found = search_elsewhere();
-    if (!found) x = start;
-    else rows.put_into(result.problem, x);
-    if (found)
+    const bool elsewhere = (!found || !result.fits) && has_unknown_place();
+    if (elsewhere) found = search_elsewhere();
+    if (found && cells.places() > 0) found = settle_among_cells(!warm || elsewhere);
+    if (!found) {
+      fit.start_at(before);
+    } else {
+      rows.put_into(result.problem, fit.x());
       result.message = result.fits ? ""
                                    : "no fit was found: chi-squared is larger than one in 1000 would be; the model, or "
                                      "a start far from the truth";
+    }
     return result;
   }
 };
@@ -359,8 +252,10 @@ void Estimator::set_measurement(std::size_t scene, std::size_t measurement, cons
   if (value.value.index() != kept.value.index())
     throw scene::SceneError(source + ": " + path + ": must be of the kind of the one before it");
   scene::validate(value, scene::length_mm(scenes[scene].scene), source, path);
-  if (!has_slopes_of(value, kept)) impl_->solved_at_x = false;
+  if (!has_slopes_of(value, kept)) impl_->fit.forget_rods();
+  const bool has_moved = value.s_mm != kept.s_mm;
   kept = value;
+  if (has_moved) impl_->renew_cells();
 }
 
 Estimate Estimator::estimate() {
@@ -368,7 +263,7 @@ Estimate Estimator::estimate() {
 }
 
 const Estimate& Estimator::track() {
-  if (impl_->rows.reserve()) impl_->solved_at_x = false;
+  if (impl_->rows.reserve()) impl_->fit.forget_rods();
   return impl_->track();
 }
 

@@ -72,23 +72,23 @@ bool Posterior::is_observable(Index unknown) const {
 }
 
 void tell(const Posterior& posterior, const VectorXd& x, const VectorXd& unit, Estimate& estimate) {
-  estimate.covariance = posterior.covariance();
-  for (Index k = 0; k < x.size(); ++k) {
-    estimate.covariance.row(k) *= unit[k];
-    estimate.covariance.col(k) *= unit[k];
-  }
   for (Index k = 0; k < x.size(); ++k) {
     const bool observable = posterior.is_observable(k);
     estimate.observable[static_cast<std::size_t>(k)] = observable;
     estimate.mean[k] = observable ? x[k] * unit[k] : unobservable;
-    estimate.sd[k] = observable ? std::sqrt(estimate.covariance(k, k)) : unobservable;
   }
-  for (Index k = 0; k < x.size(); ++k) {
-    if (estimate.observable[static_cast<std::size_t>(k)]) continue;
-    estimate.covariance.row(k).setConstant(unobservable);
-    estimate.covariance.col(k).setConstant(unobservable);
-  }
+  put_covariance(posterior.covariance(), unit, estimate);
   estimate.unobservable = posterior.unobservable();
+}
+
+void put_covariance(const MatrixXd& covariance, const VectorXd& unit, Estimate& estimate) {
+  estimate.covariance = covariance;
+  for (Index k = 0; k < unit.size(); ++k) {
+    const bool observable = estimate.observable[static_cast<std::size_t>(k)];
+    estimate.covariance.row(k) *= observable ? unit[k] : unobservable;
+    estimate.covariance.col(k) *= observable ? unit[k] : unobservable;
+  }
+  estimate.sd = estimate.covariance.diagonal().cwiseSqrt();
 }
 
 double chi_squared_999(int degrees) {

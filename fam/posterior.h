@@ -39,6 +39,9 @@ class Posterior {
 // Mean, sd, covariance and directions of an estimate, whose vectors have their sizes; x: the unknowns over their units.
 void tell(const Posterior& posterior, const Eigen::VectorXd& x, const Eigen::VectorXd& unit, Estimate& estimate);
 
+// Covariance and deviations anew, of what is observable.
+void put_covariance(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& unit, Estimate& estimate);
+
 // Below this, chi-squared lies in 999 of 1000 (Wilson and Hilferty, PNAS 17, 1931).
 double chi_squared_999(int degrees);
 

@@ -3,6 +3,7 @@
 #include "fam/estimator.h"
 
 #include "allocation_counter.h"
+#include "estimation_support.h"
 #include "exact_reference/solve.h"
 #include "support.h"
 
@@ -18,41 +19,9 @@ using Eigen::Vector3d;
 using fam::Estimate;
 using fam::Estimator;
 using scene::EstimationProblem;
+using namespace estimation_support;
 using scene::Unknown;
 using Kind = scene::Unknown::Kind;
-
-constexpr double L_mm = 40, EI_Nmm2 = 1500, GJ_Nmm2 = 1000;
-
-scene::Scene rod_under(std::vector<scene::Load> loads) {
-  scene::Stiffness stiffness;
-  stiffness.bending_Nmm2 = {EI_Nmm2, EI_Nmm2};
-  stiffness.torsion_Nmm2 = GJ_Nmm2;
-  scene::Scene scene;
-  scene.sections = {{L_mm, stiffness, Vector3d::Zero()}};
-  scene.loads = std::move(loads);
-  return scene;
-}
-
-scene::Force force(double at_mm, const Vector3d& value_N) {
-  return {at_mm, scene::Frame::fixed, value_N};
-}
-
-// The exact station nearest to a place.
-scene::Station exact_station(const scene::Equilibrium& exact, double s_mm) {
-  return *std::min_element(exact.stations.begin(), exact.stations.end(),
-                           [&](const scene::Station& a, const scene::Station& b) {
-                             return std::abs(a.s_mm - s_mm) < std::abs(b.s_mm - s_mm);
-                           });
-}
-
-scene::Measurement position(const scene::Station& station, double sd_mm) {
-  return {station.s_mm, scene::PositionMeasurement{station.X_BS.position_B_mm, sd_mm}};
-}
-
-scene::Measurement curvature(const scene::Station& station, double sd_per_mm) {
-  const Vector3d moment_S_Nmm = station.X_BS.rotation_BS.transpose() * station.moment_B_Nmm;
-  return {station.s_mm, scene::CurvatureMeasurement{moment_S_Nmm.tail<2>() / EI_Nmm2, sd_per_mm}};
-}
 
 // Components of a load from nothing known.
 std::vector<Unknown> components(std::size_t load, std::initializer_list<int> axes, const scene::Scene& start) {
