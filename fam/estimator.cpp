@@ -48,7 +48,7 @@ struct Estimator::Impl {
   VectorXd before, start;
   // Of the cells looked at.
   std::vector<CellMinimum> minima;
-  std::size_t minima_count = 0, lowest = 0, searched_cells = 0;
+  std::size_t minima_count = 0, lowest = 0, lowest_found = 0, searched_cells = 0;
   MatrixXd second_moment;
 
   Impl(scene::EstimationProblem problem, const Options& asked)
@@ -151,15 +151,13 @@ struct Estimator::Impl {
     start[place] = (std::max(cell.low, 0.0) + std::min(cell.high, 1.0)) / 2;
     fit.start_at(start);
     const double most = minima[lowest].chi_squared + counting;
-    if (search({place, most, most_cell_steps})) {
-      keep_minimum(place, 0);
-    } else if (fit.has_value()) {
-      judge();
-      if (result.chi_squared < most) keep_minimum(place, clearly_lower);
-    }
+    const bool found = search({place, most, most_cell_steps});
+    if (!found && !fit.has_value()) return;
+    if (!found) judge();
+    if (result.chi_squared < most) keep_minimum(place, found);
   }
 
-  void keep_minimum(Index place, double lower_by) {
+  void keep_minimum(Index place, bool found) {
     CellMinimum& minimum = minima[minima_count];
     minimum.x = fit.x();
     minimum.chi_squared = result.chi_squared;
@@ -167,7 +165,9 @@ struct Estimator::Impl {
     minimum.gradient.noalias() = fit.slopes().transpose() * fit.residual();
     minimum.place = place;
     minimum.cell = cells.cell(place, cells.number_at(place, minimum.x[place]));
-    if (minimum.chi_squared < minima[lowest].chi_squared - lower_by) lowest = minima_count;
+    const double lower_by = minima[lowest].chi_squared - minimum.chi_squared;
+    if (lower_by > (found ? 0 : clearly_lower)) lowest = minima_count;
+    if (found && minimum.chi_squared < minima[lowest_found].chi_squared) lowest_found = minima_count;
     ++minima_count;
   }
 
@@ -196,8 +196,8 @@ struct Estimator::Impl {
   // To the lowest minimum, of the other cells of each place in turn, too: all of them, or those whose corners are near.
   // Its covariance is that of all that count.
   bool settle_among_cells(bool all) {
-    minima_count = lowest = searched_cells = 0;
-    keep_minimum(nearest_to_a_corner(), 0);
+    minima_count = lowest = lowest_found = searched_cells = 0;
+    keep_minimum(nearest_to_a_corner(), true);
     for (Index k = 0; k < start.size(); ++k) {
       const std::size_t here = cells.number_at(k, minima[lowest].x[k]);
       for (std::size_t number = 0; number < cells.count(k); ++number) {
@@ -206,7 +206,10 @@ struct Estimator::Impl {
       }
     }
     if (searched_cells == 0) return true;
-    if (!search_from(minima[lowest].x)) return false;
+    if (!search_from(minima[lowest].x)) {
+      lowest = lowest_found;
+      if (!search_from(minima[lowest].x)) return false;
+    }
     put_second_moment(cells, {minima.data(), minima_count}, minima[lowest], LeastSquares::longest_step, second_moment);
     put_covariance(second_moment, rows.unit(), result);
     return true;

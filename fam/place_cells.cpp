@@ -134,7 +134,8 @@ bool PlaceCells::have_same_order(const VectorXd& a, const VectorXd& b) const {
 void put_second_moment(const PlaceCells& cells, std::span<const CellMinimum> minima, const CellMinimum& lowest,
                        double widest, MatrixXd& covariance) {
   covariance.setZero();
-  double all = 0;
+  double all = 0, least = lowest.chi_squared;
+  for (const CellMinimum& minimum : minima) least = std::min(least, minimum.chi_squared);
   MatrixXd moment, bounded;
   for (const CellMinimum& minimum : minima) {
     if (!cells.have_same_order(minimum.x, lowest.x)) continue;
@@ -149,8 +150,8 @@ void put_second_moment(const PlaceCells& cells, std::span<const CellMinimum> min
     const Index place = minimum.place;
     const double at = minimum.x[place];
     const AlongPlace along = along_place(low - at, high - at, bounded(place, place), minimum.gradient[place]);
-    const double weight = std::exp((lowest.chi_squared - minimum.chi_squared) / 2) *
-                          mass_of_cell(place, bounded, along, minimum.x - lowest.x, moment);
+    const double weight =
+        std::exp((least - minimum.chi_squared) / 2) * mass_of_cell(place, bounded, along, minimum.x - lowest.x, moment);
     covariance += weight * moment;
     all += weight;
   }
