@@ -41,6 +41,12 @@ RigidMotion part_of(const RodSeries<double, 3, terms>& series, double part, Sect
   return step_of_part<with_shear>(series, part, wrench);
 }
 
+template <int D>
+BasicWrench<double, D> turned(const Eigen::Matrix<double, D, D>& rotation, const BasicWrench<double, D>& wrench) {
+  if constexpr (D == 3) return {rotation * wrench.force_N, rotation * wrench.moment_Nmm};
+  else return {rotation * wrench.force_N, wrench.moment_Nmm};
+}
+
 // Of Lobatto's rule of order eight on [0, 1]; the ends of an arc are at hand. That of order six, the series' own,
 // leaves the clamp of one of 9840 random scenes 2.0 times the tolerance (tests/answers_test.cpp), this one 0.3 times.
 constexpr std::array<double, 3> lobatto_points{0.17267316464601143, 0.5, 0.82732683535398857};
@@ -220,25 +226,38 @@ void BasicShape<D>::set(const SolvedRod<D>& rod) {
 }
 
 template <int D>
+BasicWrench<double, D> BasicShape<D>::total_B(ArcInterior<D>& arc, double fraction, const BasicPose<D>& pose) const {
+  const auto k = static_cast<std::size_t>(arc.arc());
+  if (fraction >= 1) return distal_totals_B_[k];
+  if (fraction <= 0 && k == 0) return base_total_B_;
+  return wrench_towards(arc, fraction, pose);
+}
+
+template <int D>
+BasicScrew<double, D> BasicShape<D>::strain_under(const SpanArcs<D>& span,
+                                                  const BasicWrench<double, D>& total_S) const {
+  return rod_.model == RodModel::reissner ? fam::strain_under<true>(span.constants, total_S)
+                                          : fam::strain_under<false>(span.constants, total_S);
+}
+
+template <int D>
+BasicScrew<double, D> BasicShape<D>::strain_per_mm(ArcInterior<D>& arc, double fraction) const {
+  const BasicPose<D> pose = arc.pose(fraction);
+  const BasicWrench<double, D> total_S = turned<D>(pose.rotation_BS.transpose(), total_B(arc, fraction, pose));
+  return (1 / arc.span().constants.length_mm) * strain_under(arc.span(), total_S);
+}
+
+template <int D>
 typename BasicShape<D>::Section BasicShape<D>::section(ArcInterior<D>& arc, double fraction) const {
   Section result;
   result.pose = arc.pose(fraction);
-  const auto k = static_cast<std::size_t>(arc.arc());
-  if (fraction >= 1) result.total_B = distal_totals_B_[k];
-  else if (fraction <= 0 && k == 0) result.total_B = base_total_B_;
-  else result.total_B = wrench_towards(arc, fraction, result.pose);
+  result.own_B = total_B(arc, fraction, result.pose);
+  const auto& tendons = arc.span().constants.tendons;
+  if (tendons.empty()) return result;
   const Eigen::Matrix<double, D, D>& R = result.pose.rotation_BS;
-  BasicWrench<double, D> total_S = result.total_B;
-  total_S.force_N = R.transpose() * total_S.force_N;
-  if constexpr (D == 3) total_S.moment_Nmm = R.transpose() * total_S.moment_Nmm;
-  const BasicArcConstants<D>& constants = arc.span().constants;
-  const BasicScrew<double, D> strain = rod_.model == RodModel::reissner ? strain_under<true>(constants, total_S)
-                                                                        : strain_under<false>(constants, total_S);
-  result.strain_per_mm = (1 / constants.length_mm) * strain;
-  const BasicWrench<double, D> own_S = total_S + (-1.0) * tendon_pulls(constants.tendons, strain);
-  result.own_B.force_N = R * own_S.force_N;
-  if constexpr (D == 3) result.own_B.moment_Nmm = R * own_S.moment_Nmm;
-  else result.own_B.moment_Nmm = own_S.moment_Nmm;
+  const BasicWrench<double, D> total_S = turned<D>(R.transpose(), result.own_B);
+  const BasicScrew<double, D> strain = strain_under(arc.span(), total_S);
+  result.own_B = turned<D>(R, total_S + (-1.0) * tendon_pulls(tendons, strain));
   return result;
 }
 

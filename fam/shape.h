@@ -67,16 +67,19 @@ class BasicShape {
   // Keeps the rod's views. Cost linear in the arcs; takes memory where there are more than ever before.
   void set(const SolvedRod<D>& rod);
 
-  // Pose; total internal wrench (base frame, of the side towards the clamp, loads included); the rod's own; strain.
+  // Pose, and the rod's own internal wrench (base frame, of the side towards the clamp, loads included).
   struct Section {
     BasicPose<D> pose;
-    BasicWrench<double, D> total_B, own_B;
-    BasicScrew<double, D> strain_per_mm;  // (u, v)
+    BasicWrench<double, D> own_B;
   };
   ArcInterior<D> interior(int arc) const { return {rod_, span_of(arc), arc}; }
   Section section(ArcInterior<D>& arc, double fraction) const;
+  BasicScrew<double, D> strain_per_mm(ArcInterior<D>& arc, double fraction) const;  // (u, v)
 
  private:
+  // Of all, tendons' pulls among it: base frame; section frame.
+  BasicWrench<double, D> total_B(ArcInterior<D>& arc, double fraction, const BasicPose<D>& pose) const;
+  BasicScrew<double, D> strain_under(const SpanArcs<D>& span, const BasicWrench<double, D>& total_S) const;
   BasicWrench<double, D> wrench_towards(ArcInterior<D>& arc, double fraction, const BasicPose<D>& pose) const;
   const SpanArcs<D>& span_of(int arc) const {
     return rod_.spans[static_cast<std::size_t>(span_of_arc_[static_cast<std::size_t>(arc)])];

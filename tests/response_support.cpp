@@ -42,13 +42,22 @@ SolvedRod::SolvedRod(Scene scene, std::vector<int> arcs_per_span, fam::Law law)
 }
 
 // At an arc's end the side towards the clamp.
-fam::BasicShape<3>::Section SolvedRod::section(double s_mm) const {
+std::pair<fam::ArcInterior<3>, double> SolvedRod::place(double s_mm) const {
   std::size_t i = 0;
   while (i + 1 < spans_.size() && s_mm > spans_[i].end_mm * (1 + 1e-12)) ++i;
   const double arcs = (s_mm - spans_[i].start_mm) / spans_[i].length_mm() * arcs_per_span_[i];
   const double last = std::clamp(std::ceil(arcs - 1e-9), 1.0, static_cast<double>(arcs_per_span_[i]));
-  fam::ArcInterior<3> arc = shape_->interior(solved().spans[i].first_arc + static_cast<int>(last) - 1);
-  return shape_->section(arc, std::min(1.0, arcs - last + 1));
+  return {shape_->interior(solved().spans[i].first_arc + static_cast<int>(last) - 1), std::min(1.0, arcs - last + 1)};
+}
+
+fam::BasicShape<3>::Section SolvedRod::section(double s_mm) const {
+  auto [arc, fraction] = place(s_mm);
+  return shape_->section(arc, fraction);
+}
+
+fam::BasicScrew<double, 3> SolvedRod::strain_per_mm(double s_mm) const {
+  auto [arc, fraction] = place(s_mm);
+  return shape_->strain_per_mm(arc, fraction);
 }
 
 Scene changed(Scene scene, const fam::Parameter& parameter, double change) {
@@ -160,8 +169,8 @@ Vector6 Differences::between(std::size_t more, std::size_t less, double s_mm, Wh
     result << a.pose.position_B_mm - b.pose.position_B_mm,
         fam::rotation_vector(Eigen::Matrix3d(a.pose.rotation_BS * b.pose.rotation_BS.transpose()));
   } else if (what == What::strain) {
-    result << a.strain_per_mm.rotation - b.strain_per_mm.rotation,
-        a.strain_per_mm.translation_mm - b.strain_per_mm.translation_mm;
+    const auto strain = rods_[more].strain_per_mm(s_mm) + (-1.0) * rods_[less].strain_per_mm(s_mm);
+    result << strain.rotation, strain.translation_mm;
   } else {
     result << a.own_B.force_N - b.own_B.force_N, a.own_B.moment_Nmm - b.own_B.moment_Nmm;
   }

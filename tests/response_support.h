@@ -33,9 +33,12 @@ class SolvedRod {
   fam::SolvedRod<3> solved() const { return rod_->solved(); }
   double length_mm() const { return spans_.back().end_mm; }
   fam::BasicShape<3>::Section section(double s_mm) const;
+  fam::BasicScrew<double, 3> strain_per_mm(double s_mm) const;
   fam::Response& response() { return response_; }
 
  private:
+  std::pair<fam::ArcInterior<3>, double> place(double s_mm) const;  // its arc, and the fraction of that
+
   scene::Scene scene_;
   std::vector<scene::Span> spans_;
   scene::SpanCutter cutter_;
