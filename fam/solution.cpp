@@ -95,7 +95,7 @@ SectionState<3> Solution::state(const Place& place, const scene::Pose& pose_ther
   run_->engine.visit([&](const auto& solver) {
     const auto rod = solver.solved();
     const auto wrench = ArcInterior(rod, rod.spans[span_of(place.arc)], place.arc).wrench(place.fraction);
-    state.wrench = {rotation_BP * embedded(wrench.force_N), rotation_BP * embedded_angular(wrench.moment_Nmm)};
+    state.wrench = {in_base(wrench.force_N, rotation_BP), angular_in_base(wrench.moment_Nmm, rotation_BP)};
   });
   if (problem_->choice().round) {
     const Matrix3d back = Eigen::AngleAxisd(-twist_rad(place), Vector3d::UnitX()).toRotationMatrix();
@@ -109,7 +109,7 @@ scene::Wrench Solution::own_wrench_B(const Place& place) const {
   const auto own_B = [&](const auto& shape) -> scene::Wrench {
     auto arc = shape.interior(place.arc);
     const auto own = shape.section(arc, place.fraction).own_B;
-    return {rotation_BP * embedded(own.force_N), rotation_BP * embedded_angular(own.moment_Nmm)};
+    return {in_base(own.force_N, rotation_BP), angular_in_base(own.moment_Nmm, rotation_BP)};
   };
   shape();
   return run_->engine.is_planar() ? own_B(planar_shape_) : own_B(shape_);

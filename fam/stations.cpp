@@ -78,20 +78,13 @@ std::vector<StationPlace> thinned(std::vector<StationPlace> all, const SolvedRod
   return kept;
 }
 
-// rotation_BP: null of the frames' own.
 template <int D>
-scene::Station station(double s_mm, const typename BasicShape<D>::Section& section, const Matrix3d* rotation) {
-  if constexpr (D == 3) {
-    const auto& pose = section.pose;
-    if (!rotation)
-      return {s_mm, {pose.rotation_BS, pose.position_B_mm}, section.own_B.force_N, section.own_B.moment_Nmm};
-  }
-  const Matrix3d& rotation_BP = *rotation;
+scene::Station station(double s_mm, const typename BasicShape<D>::Section& section, const Matrix3d& rotation_BP) {
   const SectionPose pose = in_base(section.pose, rotation_BP);
   return {s_mm,
           {pose.rotation_BS, pose.position_B_mm},
-          rotation_BP * embedded(section.own_B.force_N),
-          rotation_BP * embedded_angular(section.own_B.moment_Nmm)};
+          in_base(section.own_B.force_N, rotation_BP),
+          angular_in_base(section.own_B.moment_Nmm, rotation_BP)};
 }
 
 // Length of t = v + u x r per mm of rod.
@@ -116,8 +109,8 @@ std::vector<double> shortenings_mm(const scene::Scene& scene, std::span<const sc
       ArcInterior<D> arc = shape.interior(k);
       for (std::size_t g = 0; g < gauss_points.size(); ++g) {
         const BasicScrew<double, D> strain = shape.strain_per_mm(arc, gauss_points[g]);
-        const Vector3d u = rotation_BP * embedded_angular(strain.rotation),
-                       v = rotation_BP * embedded(strain.translation_mm);
+        const Vector3d u = angular_in_base(strain.rotation, rotation_BP),
+                       v = in_base(strain.translation_mm, rotation_BP);
         for (std::size_t t = 0; t < tendons.size(); ++t) {
           if (middle_mm > tendons[t]->to_mm) continue;
           const Vector3d arm_mm(0, tendons[t]->offset_mm[0], tendons[t]->offset_mm[1]);
@@ -138,13 +131,12 @@ void set_shape(scene::Equilibrium& result, const scene::Scene& scene, std::span<
   BasicShape<D> shape;
   shape.set(rod);
   ArcInterior<D> arc = shape.interior(0);
-  const Matrix3d* turn = D == 2 || rotation_BP != Matrix3d::Identity() ? &rotation_BP : nullptr;
   const std::vector<StationPlace> kept = thinned(places(spans, rod), rod);
   result.stations.reserve(kept.size() + 1);
-  result.stations.push_back(station<D>(0, shape.section(arc, 0), turn));
+  result.stations.push_back(station<D>(0, shape.section(arc, 0), rotation_BP));
   for (const StationPlace& place : kept) {
     if (place.arc != arc.arc()) arc = shape.interior(place.arc);
-    result.stations.push_back(station<D>(place.s_mm, shape.section(arc, place.fraction), turn));
+    result.stations.push_back(station<D>(place.s_mm, shape.section(arc, place.fraction), rotation_BP));
   }
   result.tendon_shortening_mm = shortenings_mm(scene, spans, rod, shape, rotation_BP);
 }
