@@ -151,7 +151,7 @@ Status Solver::Impl::solve_with_arcs(Attempt& attempt, bool on, int newton_steps
 }
 
 // Where the arcs are too long, or a load is not reached with them, twice as many are tried, until two fail at the same
-// load.
+// load or the Newton steps are used up.
 Solver::Outcome Solver::Impl::solve(Start start, int newton_steps_at_most) {
   Attempt& attempt = next();
   has_previous = false;
@@ -162,14 +162,16 @@ Solver::Outcome Solver::Impl::solve(Start start, int newton_steps_at_most) {
   const Engine& engine = attempt.run.engine;
   Status last = Status::tolerance_not_met;
   double last_load = -1;
+  int steps_left = newton_steps_at_most;
   for (;; last_load = engine.load_factor()) {
     if (std::accumulate(arcs.begin(), arcs.end(), 0LL) > most_arcs) return {last, 0, 0, message_of(last)};
-    last = solve_with_arcs(attempt, on, newton_steps_at_most);
+    last = solve_with_arcs(attempt, on, steps_left);
+    const bool used_up = engine.newton_steps() > steps_left;
+    steps_left -= engine.newton_steps();
     if (last == Status::converged) break;
     const double load = engine.load_factor();  // 0 or 1: not the load is at fault, but the arcs are too long
     const bool stopped_again =
         !engine.is_march() && load > 0 && load < 1 && std::abs(load - last_load) <= same_load * last_load;
-    const bool used_up = engine.newton_steps() > newton_steps_at_most;
     if (options.arcs > 0 || stopped_again || used_up)
       return {last, engine.load_steps(), engine.newton_steps(), message_of(last)};
     for (int& count : arcs) count *= 2;

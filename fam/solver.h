@@ -76,8 +76,8 @@ class Solver {
     const char* message;  // never null; empty when converged
     bool converged() const { return status == scene::Status::converged; }
   };
-  // Ends in work_limit once loads that grow have taken so many Newton steps: a few dozen bound a tick of a stream, which
-  // takes up to five as a rule.
+  // Ends in work_limit once loads that grow have taken so many Newton steps, on all numbers of arcs tried: a few dozen
+  // bound a tick of a stream, which takes up to five as a rule. Outcome: of the arcs tried last.
   Outcome solve(Start start = Start::last_solution, int newton_steps_at_most = most_newton_steps) noexcept;
 
   // The solution before the last one counts as the last again, which becomes the one before; values set stay. False:

@@ -348,30 +348,49 @@ TEST(Solver, PosesAndWrenchesAreExact) {
   }
 }
 
-// A column beyond its Euler load, bent to one side by a small force, is pushed over to the other: it snaps at a fold.
-TEST(Solver, StopsAtAFoldAndKeepsItsSolution) {
+// A buckled strip under 1.1 of Euler's load, pushed sideways.
+scene::Scene pushed_strip(double side_N) {
   const double EI = 1000, L = 100, euler_N = EI * std::pow(M_PI / (2 * L), 2);
   scene::Stiffness strip = slender(EI, EI);
   strip.bending_Nmm2[0] = 3 * EI;  // does not give way sideways
-  const scene::Scene scene = uniform_rod(L, strip, {scene::Force{L, Frame::fixed, {-1.1 * euler_N, 1e-2, 0}}});
+  return uniform_rod(L, strip, {scene::Force{L, Frame::fixed, {-1.1 * euler_N, side_N, 0}}});
+}
+
+// A column beyond its Euler load, bent to one side by a small force, is pushed over to the other: it snaps at a fold.
+TEST(Solver, StopsAtAFoldAndKeepsItsSolution) {
+  const scene::Scene scene = pushed_strip(1e-2);
+  const double push_N = std::get<scene::Force>(scene.loads[0]).value_N[0];
   fam::Options options;
   options.tolerance_mm = 1e-6;
   Solver solver = kept(scene, options);
   ASSERT_TRUE(solver.solve().converged());
   const double bent_mm = solver.tip().position_B_mm[1];
   ASSERT_GT(bent_mm, 30);
-  solver.set_force_N(0, {-1.1 * euler_N, -6e-3, 0});  // past zero, not yet at the fold
+  solver.set_force_N(0, {push_N, -6e-3, 0});  // past zero, not yet at the fold
   EXPECT_TRUE(solver.solve().converged());
   EXPECT_GT(solver.tip().position_B_mm[1], 30);
   EXPECT_EQ(solver.stable(), true);
   const Vector3d held_mm = solver.tip().position_B_mm;
-  solver.set_force_N(0, {-1.1 * euler_N, -1e-2, 0});
+  solver.set_force_N(0, {push_N, -1e-2, 0});
   const Solver::Outcome outcome = solver.solve();
   EXPECT_EQ(outcome.status, Status::limit_point) << outcome.message;
   EXPECT_LT(outcome.newton_steps, 150);  // 126: its load is foretold from six places; closed in on, 246
   EXPECT_EQ(solver.tip().position_B_mm, held_mm);
   EXPECT_TRUE(solver.solve(Solver::Start::unloaded).converged());
   EXPECT_NEAR(solver.tip().position_B_mm[1], -bent_mm, 1e-6);
+}
+
+// A fold is met twice, on twice the arcs the second time, with 126 steps each: all of them count.
+TEST(Solver, EndsAfterAsManyNewtonStepsInAllAsItMayTake) {
+  const scene::Scene scene = pushed_strip(1e-2);
+  Solver solver = kept(scene, {.tolerance_mm = 1e-6});
+  ASSERT_TRUE(solver.solve().converged());
+  const double push_N = std::get<scene::Force>(scene.loads[0]).value_N[0];
+  solver.set_force_N(0, {push_N, -6e-3, 0});
+  ASSERT_TRUE(solver.solve().converged());
+  solver.set_force_N(0, {push_N, -1e-2, 0});
+  EXPECT_EQ(solver.solve(Solver::Start::last_solution, 200).status, Status::work_limit);
+  EXPECT_EQ(solver.solve(Solver::Start::last_solution, 400).status, Status::limit_point);
 }
 
 // A bent column whose side force comes to all but the opposite side turns about its axis, past where that force nearly
