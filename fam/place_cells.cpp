@@ -66,12 +66,10 @@ AlongPlace along_place(double low, double high, double variance, double pull) {
   high = std::max(0.0, std::min(high, reach));
   constexpr int steps = 64;
   AlongPlace sum;
-  for (int i = 0; i <= steps; ++i) {  // Simpson
+  for (int i = 0; i <= steps; ++i) {
     const double t = low + (high - low) * i / steps;
-    const double weight = (i == 0 || i == steps ? 1
-                           : i % 2 == 1         ? 4
-                                                : 2) *
-                          (high - low) / (3 * steps) * std::exp(-t * t / (2 * variance) - t * pull);
+    const double simpson = i % steps == 0 ? 1 : 2 + 2 * (i % 2);
+    const double weight = simpson * (high - low) / (3 * steps) * std::exp(-t * t / (2 * variance) - t * pull);
     sum.mass += weight;
     sum.mean += weight * t;
     sum.square += weight * t * t;
