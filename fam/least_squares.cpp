@@ -35,7 +35,7 @@ constexpr int hopeless_after = 3;     // steps, when what the slopes promise is 
 
 // Steps in standard deviations. Each leaves to the next one a share that grows with how far its end is from where its
 // slopes were taken, at the rate that the last one told.
-struct Steps {
+struct StepSizes {
   double way = 0;  // since the slopes were taken
   double last_size = 0, last_reach = 0, rate = HUGE_VAL;
 
@@ -234,7 +234,7 @@ bool LeastSquares::minimise(const Limits& limits) {
   if (!evaluate()) return false;
   double damping = warm ? warm_damping : first_damping, chi_squared = residual_.squaredNorm();
   bool as_promised = true;
-  Steps steps;
+  StepSizes steps;
   for (iterations_ = 0; iterations_ < limits_.steps; ++iterations_) {
     const double small = std::sqrt(converged_decrease * (1 + chi_squared));
     double size = full_step();

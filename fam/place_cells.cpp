@@ -1,5 +1,7 @@
 #include "fam/place_cells.h"
 
+#include "scene/load_visitor.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
@@ -18,8 +20,12 @@ using scene::Unknown;
 // Over L: from a corner to the cells beside it. Chosen: far below what any sensor tells of a place.
 constexpr double gap = 1e-9;
 
+// Curvature jumps where it acts.
 bool is_moment(const scene::Scene& scene, const Unknown& unknown) {
-  return std::holds_alternative<scene::Moment>(scene.loads[unknown.index]);
+  return scene::visit_load(
+      scene.loads[unknown.index], [](const scene::Force&) { return false; }, [](const scene::Moment&) { return true; },
+      [](const scene::DistributedForce&) { return false; }, [](const scene::Gravity&) { return false; },
+      [](const scene::Tendon&) { return false; });
 }
 
 bool are_places_of_one_kind(const Unknown& a, const Unknown& b, const scene::EstimationProblem& problem) {
