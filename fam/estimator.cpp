@@ -157,14 +157,19 @@ struct Estimator::Impl {
     if (result.chi_squared < most) keep_minimum(place, found);
   }
 
-  void keep_minimum(Index place, bool found) {
-    CellMinimum& minimum = minima[minima_count];
+  // Where the search stands.
+  void put_minimum(Index place, CellMinimum& minimum) {
     minimum.x = fit.x();
     minimum.chi_squared = result.chi_squared;
     minimum.covariance = posterior.covariance();
     minimum.gradient.noalias() = fit.slopes().transpose() * fit.residual();
     minimum.place = place;
     minimum.cell = cells.cell(place, cells.number_at(place, minimum.x[place]));
+  }
+
+  void keep_minimum(Index place, bool found) {
+    CellMinimum& minimum = minima[minima_count];
+    put_minimum(place, minimum);
     const double lower_by = minima[lowest].chi_squared - minimum.chi_squared;
     if (lower_by > (found ? 0 : clearly_lower)) lowest = minima_count;
     if (found && minimum.chi_squared < minima[lowest_found].chi_squared) lowest_found = minima_count;
@@ -210,6 +215,7 @@ struct Estimator::Impl {
       lowest = lowest_found;
       if (!search_from(minima[lowest].x)) return false;
     }
+    put_minimum(minima[lowest].place, minima[lowest]);
     put_second_moment(cells, {minima.data(), minima_count}, minima[lowest], LeastSquares::longest_step, second_moment);
     put_covariance(second_moment, rows.unit(), result);
     return true;

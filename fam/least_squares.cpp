@@ -164,7 +164,7 @@ double LeastSquares::step(double damping, bool inside) {
   along_ = trial_;
   bound(trial_, inside);
   if (trial_ != along_) {
-    hold(damping);
+    hold();
     bound(trial_, inside);
   }
   moved_ = trial_ - x_;
@@ -172,9 +172,7 @@ double LeastSquares::step(double damping, bool inside) {
   return -(2 * gradient_.dot(moved_) + moved_.dot(along_));
 }
 
-void LeastSquares::hold(double damping) {
-  damped_ = information_;
-  damped_.diagonal() += damping * scaling_;
+void LeastSquares::hold() {
   moved_ = -gradient_;
   for (Index k = 0; k < x_.size(); ++k) {
     if (trial_[k] != along_[k]) moved_ -= (trial_[k] - x_[k]) * damped_.col(k);

@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -26,13 +27,11 @@ class LeastSquares {
   LeastSquares(scene::EstimationProblem problem, const Options& options);
 
   EstimationRows& rows() { return rows_; }
-  const EstimationRows& rows() const { return rows_; }
   const PlaceCells& cells() const { return cells_; }
 
   void renew_cells() { cells_ = PlaceCells(rows_.given()); }  // where measurements have moved
 
   // From x, to the lowest chi-squared. False: status() and message() say why.
-  bool minimise() { return minimise({}); }
   bool minimise(const Limits& limits);
   // To start at x from the unloaded rods; from the rods as they stand; with rods and slopes as they are.
   void start_at(const Eigen::VectorXd& x);
@@ -66,8 +65,8 @@ class LeastSquares {
   // A step with this damping to `trial`; what it promises to bring chi-squared down by. Unknowns that reach a bound
   // stay there, and the others go where these want them.
   double step(double damping, bool inside);
-  // The step anew where bounds made `trial` of `along`.
-  void hold(double damping);
+  // The step anew, by `damped`, where bounds made `trial` of `along`.
+  void hold();
   // Whether a step passed a corner.
   bool left_cells() const;
   // Solves at the trial; back to where the rods were if chi-squared is not lower.
