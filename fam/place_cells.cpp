@@ -143,19 +143,21 @@ void put_second_moment(const PlaceCells& cells, std::span<const CellMinimum> min
   MatrixXd moment, bounded;
   for (const CellMinimum& minimum : minima) {
     if (!cells.have_same_order(minimum.x, lowest.x)) continue;
-    double low = minimum.cell.low, high = minimum.cell.high;
-    bounded = minimum.covariance;
-    if (&minimum != &lowest) {  // whose covariance is the inverse of its information, at the rod's ends too
-      bounded.diagonal().array() += widest * widest;
-      bounded = minimum.covariance - minimum.covariance * bounded.ldlt().solve(minimum.covariance);
-      low = std::max(low, 0.0);
-      high = std::min(high, 1.0);
-    }
+    // The lowest one is not cut off at the rod's ends, and its covariance is the inverse of its information.
+    const bool is_lowest = &minimum == &lowest;
+    const double low = is_lowest ? minimum.cell.low : std::max(minimum.cell.low, 0.0);
+    const double high = is_lowest ? minimum.cell.high : std::min(minimum.cell.high, 1.0);
     const Index place = minimum.place;
     const double at = minimum.x[place];
-    const AlongPlace along = along_place(low - at, high - at, bounded(place, place), minimum.gradient[place]);
-    const double weight =
-        std::exp((least - minimum.chi_squared) / 2) * mass_of_cell(place, bounded, along, minimum.x - lowest.x, moment);
+    const auto mass = [&](const MatrixXd& of) {
+      const AlongPlace along = along_place(low - at, high - at, of(place, place), minimum.gradient[place]);
+      return mass_of_cell(place, of, along, minimum.x - lowest.x, moment);
+    };
+    bounded = minimum.covariance;
+    bounded.diagonal().array() += widest * widest;
+    bounded = minimum.covariance - minimum.covariance * bounded.ldlt().solve(minimum.covariance);
+    const double weight = std::exp((least - minimum.chi_squared) / 2) * mass(bounded);
+    if (is_lowest) mass(minimum.covariance);
     covariance += weight * moment;
     all += weight;
   }

@@ -210,4 +210,15 @@ TEST(EstimatorPlaces, AStreamPassesSensors) {
   EXPECT_GT(beyond_4_sd(0.1), 20);
 }
 
+// Sensors that tell next to nothing tell no cell either: a place anywhere on the rod has a deviation of L / sqrt(12),
+// 0.29 L. Measured 0.25; where the lowest minimum outweighs all others by forces that nothing bounds, 0.11.
+TEST(EstimatorPlaces, SensorsThatTellNothingTellNoCell) {
+  const scene::Equilibrium exact = exact_reference::solve(rod_under({force(22, {0, 0.3, 0.1})}), {});
+  std::vector<scene::Measurement> measured;
+  for (const double s_mm : {8., 16., 24., 32.}) measured.push_back(curvature(exact_station(exact, s_mm), 0.1));
+  const Estimate found = Estimator(one_load(false, measured)).estimate();
+  ASSERT_TRUE(found.converged()) << found.message;
+  EXPECT_GT(found.sd[2], 0.2 * L_mm);
+}
+
 }  // namespace
