@@ -97,10 +97,9 @@ template <bool with_shear, std::size_t terms>
 RodSeries<double, 3, terms> elastic_series(const ArcConstants& arc, const ArcForces<double, 3>* forces,
                                            const SectionWrench& wrench, VectorUnit unit = widest_unit());
 
-// The step of the part of an arc in space that ends at its distal end, by the series of the whole: of six terms where
-// no force is distributed, of seven else. Takes the wrench from there to the proximal end. By elastic_step.cpp.
-template <bool with_shear, std::size_t terms>
-RigidMotion step_of_part(const RodSeries<double, 3, terms>& series, double part, SectionWrench& wrench,
+// part_step in space, by elastic_step.cpp.
+template <bool with_shear>
+RigidMotion step_of_part(const RodSeries<double, 3, 7>& series, double part, bool distributed, SectionWrench& wrench,
                          VectorUnit unit = widest_unit());
 
 // The series of an arc in any section; where that does not give way its translation is (h, 0, 0), 0 ...

@@ -114,20 +114,35 @@ BasicMotion<T, D> sixth_order_step(Section&& section, const ArcForces<T, D>* for
   return exponential(screw);
 }
 
-// The step of the part of an arc that ends at its distal end, by the series of the whole, which becomes its own.
-template <bool with_shear, class T, int D, std::size_t terms>
-BasicMotion<T, D> part_step(RodSeries<T, D, terms>& s, double part, BasicWrench<T, D>& wrench) {
-  double power = 1;
-  for (std::size_t k = 0; k < terms; ++k, power *= part) {
-    s.rotation[k] = T(power * part) * s.rotation[k];
-    if (with_shear || k == 0) s.translation_mm[k] = T(power * part) * s.translation_mm[k];
-    if (terms == 6) continue;
-    s.force_N[k] = T(power) * s.force_N[k];
-    s.moment_Nmm[k] = T(power) * s.moment_Nmm[k];
+// Of the part of an arc that ends at its distal end: the strain's series, by that of the whole. The wrench's is not
+// set.
+template <bool with_shear, class T, int D>
+RodSeries<T, D, 7> strain_of_part(const RodSeries<double, D, 7>& whole, const T& part) {
+  RodSeries<T, D, 7> own;
+  T power = part;
+  for (std::size_t k = 0; k < whole.rotation.size(); ++k, power = power * part) {
+    own.rotation[k] = power * as<T>(whole.rotation[k]);
+    if (with_shear || k == 0) own.translation_mm[k] = power * as<T>(whole.translation_mm[k]);
   }
-  const BasicMotion<T, D> motion = exponential(magnus<with_shear>(s));
-  if constexpr (terms == 6) wrench = transport(motion, wrench);
-  else wrench = proximal_wrench(s);
+  return own;
+}
+
+// Its step, which takes the wrench from there to the proximal end.
+template <bool with_shear, class T, int D>
+BasicMotion<T, D> part_step(const RodSeries<double, D, 7>& whole, const T& part, bool distributed,
+                            BasicWrench<T, D>& wrench) {
+  RodSeries<T, D, 7> own = strain_of_part<with_shear>(whole, part);
+  const BasicMotion<T, D> motion = exponential(magnus<with_shear>(own));
+  if (!distributed) {
+    wrench = transport(motion, wrench);
+    return motion;
+  }
+  T power = 1;
+  for (std::size_t k = 0; k < whole.rotation.size(); ++k, power = power * part) {
+    own.force_N[k] = power * as<T>(whole.force_N[k]);
+    own.moment_Nmm[k] = power * as<T>(whole.moment_Nmm[k]);
+  }
+  wrench = proximal_wrench(own);
   return motion;
 }
 

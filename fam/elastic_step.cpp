@@ -33,14 +33,14 @@ RodSeries<double, 3, terms> elastic_series(const ArcConstants& arc, const ArcFor
   return rod_series<terms>(ElasticSection<with_shear, double, 3>(arc), forces, wrench);
 }
 
-template <bool with_shear, std::size_t terms>
-RigidMotion step_of_part(const RodSeries<double, 3, terms>& series, double part, SectionWrench& wrench,
+template <bool with_shear>
+RigidMotion step_of_part(const RodSeries<double, 3, 7>& series, double part, bool distributed, SectionWrench& wrench,
                          [[maybe_unused]] VectorUnit unit) {
 #ifdef FAM_HAS_AVX2_UNIT
-  if (unit == VectorUnit::avx2) return call_by_avx2([&] { return wide_part_step<with_shear>(series, part, wrench); });
+  if (unit == VectorUnit::avx2)
+    return call_by_avx2([&] { return wide_part_step<with_shear>(series, part, distributed, wrench); });
 #endif
-  RodSeries<double, 3, terms> own = series;
-  return part_step<with_shear>(own, part, wrench);
+  return part_step<with_shear>(series, part, distributed, wrench);
 }
 
 #define FAM_ELASTIC(with_shear)                                                                                        \
@@ -50,8 +50,8 @@ RigidMotion step_of_part(const RodSeries<double, 3, terms>& series, double part,
                                                                  const SectionWrench&, VectorUnit);                    \
   template RodSeries<double, 3, 7> elastic_series<with_shear, 7>(const ArcConstants&, const ArcForces<double, 3>*,     \
                                                                  const SectionWrench&, VectorUnit);                    \
-  template RigidMotion step_of_part<with_shear>(const RodSeries<double, 3, 6>&, double, SectionWrench&, VectorUnit);   \
-  template RigidMotion step_of_part<with_shear>(const RodSeries<double, 3, 7>&, double, SectionWrench&, VectorUnit);
+  template RigidMotion step_of_part<with_shear>(const RodSeries<double, 3, 7>&, double, bool, SectionWrench&,          \
+                                                VectorUnit);
 FAM_ELASTIC(true)
 FAM_ELASTIC(false)
 

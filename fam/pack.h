@@ -55,7 +55,8 @@ struct Pack {
   }
 };
 
-// As far as turns of 2 rad: beyond 1 rad by those of half the angle, which cancel nowhere.
+constexpr double largest_lane_angle_rad = 2;
+// As far as that: beyond 1 rad by those of half the angle, which cancel nowhere.
 template <int lanes, int level>
 BasicCoefficients<Pack<lanes, level>> screw_coefficients(const Pack<lanes, level>& angle_squared) {
   using P = Pack<lanes, level>;

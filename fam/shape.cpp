@@ -1,5 +1,6 @@
 #include "fam/shape.h"
 
+#include <algorithm>
 #include <numbers>
 
 namespace fam {
@@ -31,14 +32,14 @@ BasicPose<D> before(const BasicPose<D>& distal, const BasicMotion<double, D>& mo
 }
 
 // Of the part of an arc that ends at its distal end, by the series of the whole.
-template <bool with_shear, std::size_t terms>
-BasicMotion<double, 2> part_of(const RodSeries<double, 2, terms>& series, double part, BasicWrench<double, 2>& wrench) {
-  RodSeries<double, 2, terms> own = series;
-  return part_step<with_shear>(own, part, wrench);
+template <bool with_shear>
+BasicMotion<double, 2> part_of(const RodSeries<double, 2, 7>& series, double part, bool distributed,
+                               BasicWrench<double, 2>& wrench) {
+  return part_step<with_shear>(series, part, distributed, wrench);
 }
-template <bool with_shear, std::size_t terms>
-RigidMotion part_of(const RodSeries<double, 3, terms>& series, double part, SectionWrench& wrench) {
-  return step_of_part<with_shear>(series, part, wrench);
+template <bool with_shear>
+RigidMotion part_of(const RodSeries<double, 3, 7>& series, double part, bool distributed, SectionWrench& wrench) {
+  return step_of_part<with_shear>(series, part, distributed, wrench);
 }
 
 template <int D>
@@ -73,24 +74,35 @@ SectionPose pose_by_bezier(const Arc& arc, const SectionPose& proximal, double f
 
 }  // namespace
 
+template <int D>
+template <bool with_shear>
+void ArcInterior<D>::make_series() {
+  if (has_series_) return;
+  has_series_ = true;
+  const auto k = static_cast<std::size_t>(arc_);
+  ArcForces<double, D> forces;
+  if (span_->distributed) forces = span_->template forces<double>(rod_->poses[k + 1].rotation_BS.transpose());
+  series_ =
+      series_of<with_shear, 7, D>(span_->constants, span_->distributed ? &forces : nullptr, rod_->distal_wrenches_S[k]);
+}
+template <int D>
+void ArcInterior<D>::make_series() {
+  rod_->model == RodModel::reissner ? make_series<true>() : make_series<false>();
+}
+
 // The law's step of the part beyond the fraction: the motion, and the wrench at its proximal end.
 template <int D>
 template <bool with_shear>
 FAM_FLATTEN BasicMotion<double, D> ArcInterior<D>::step(double fraction, BasicWrench<double, D>& wrench) {
   const auto k = static_cast<std::size_t>(arc_);
-  const BasicWrench<double, D>& distal = rod_->distal_wrenches_S[k];
   const double part = 1 - fraction;
-  wrench = distal;
+  wrench = rod_->distal_wrenches_S[k];
   ArcForces<double, D> forces;
   if (span_->distributed) forces = span_->template forces<double>(rod_->poses[k + 1].rotation_BS.transpose());
   const ArcForces<double, D>* distributed = span_->distributed ? &forces : nullptr;
   if (rod_->law == Law::sixth_order) {
-    if (!has_series_) {
-      if (distributed) series_ = series_of<with_shear, 7>(span_->constants, distributed, distal);
-      else first_terms_ = series_of<with_shear, 6>(span_->constants, distributed, distal);
-      has_series_ = true;
-    }
-    return distributed ? part_of<with_shear>(series_, part, wrench) : part_of<with_shear>(first_terms_, part, wrench);
+    make_series<with_shear>();
+    return part_of<with_shear>(series_, part, span_->distributed, wrench);
   }
   const BasicArcConstants<D> constants = part_of(span_->constants, part);
   if (distributed) forces = {part * forces.follower_S_N, part * forces.fixed_D_N};
@@ -119,10 +131,36 @@ BasicPose<D> ArcInterior<D>::pose(double fraction) {
 }
 
 template <int D>
+PosesAtOnce<D> ArcInterior<D>::poses(const PlacesAtOnce& fractions) {
+  PosesAtOnce<D> result;
+  const auto is_inside = [](double fraction) { return fraction > 0 && fraction < 1; };
+  bool found = false;
+  if (rod_->law == Law::sixth_order && std::any_of(fractions.begin(), fractions.end(), is_inside)) {
+    make_series();
+    const BasicPose<D>& distal = rod_->poses[static_cast<std::size_t>(arc_) + 1];
+    found = rod_->model == RodModel::reissner ? poses_in_arc<true>(series_, fractions, distal, result)
+                                              : poses_in_arc<false>(series_, fractions, distal, result);
+  }
+  for (std::size_t i = 0; i < fractions.size(); ++i) {
+    if (!found || !is_inside(fractions[i])) result[i] = pose(fractions[i]);
+  }
+  return result;
+}
+
+template <int D>
 BasicWrench<double, D> ArcInterior<D>::wrench(double fraction) {
   BasicWrench<double, D> wrench = rod_->distal_wrenches_S[static_cast<std::size_t>(arc_)];
   if (fraction < 1) step(fraction, wrench);
   return wrench;
+}
+
+template <int D>
+BasicScrew<double, D> ArcInterior<D>::strain_per_mm(double fraction) {
+  make_series();
+  BasicScrew<double, D> strain;
+  for (std::size_t k = series_.rotation.size(); k-- > 0;)
+    strain = (1 - fraction) * strain + BasicScrew<double, D>{series_.rotation[k], series_.translation_mm[k]};
+  return (1 / span_->constants.length_mm) * strain;
 }
 
 namespace {
@@ -168,10 +206,19 @@ double unseen_turn_rad(const SolvedRod<D>& rod) {
   return largest_rad;
 }
 
-// From the arc's distal end towards the clamp: the forces beyond and the moments of what lies between.
+// Places between a fraction and the arc's distal end, after the fraction itself.
+PlacesAtOnce places_beyond(double fraction) {
+  PlacesAtOnce result{fraction};
+  for (std::size_t i = 0; i < lobatto_points.size(); ++i) result[i + 1] = fraction + (1 - fraction) * lobatto_points[i];
+  return result;
+}
+
+// From the arc's distal end towards the clamp: the forces beyond and the moments of what lies between. With distributed
+// forces `poses` are those of places_beyond(fraction), else the first is that of the fraction.
 template <int D>
-BasicWrench<double, D> BasicShape<D>::wrench_towards(ArcInterior<D>& arc, double fraction,
-                                                     const BasicPose<D>& pose) const {
+BasicWrench<double, D> BasicShape<D>::wrench_towards(const ArcInterior<D>& arc, double fraction,
+                                                     std::span<const BasicPose<D>> poses) const {
+  const BasicPose<D>& pose = poses[0];
   const SpanArcs<D>& span = arc.span();
   const auto k = static_cast<std::size_t>(arc.arc());
   const BasicWrench<double, D>& distal = distal_totals_B_[k];
@@ -180,16 +227,20 @@ BasicWrench<double, D> BasicShape<D>::wrench_towards(ArcInterior<D>& arc, double
   if (!span.distributed) return total;
   const double part = 1 - fraction;
   total.force_N += part * span.fixed_force_B_N;
+  Vector<double, D> mean_arm_mm = Vector<double, D>::Zero();
+  const bool follows = !span.follower_force_S_N.isZero(0);
   const auto add = [&](const BasicPose<D>& at, double weight) {
-    const Vector<double, D> follower = part * weight * (at.rotation_BS * span.follower_force_S_N);
-    const Vector<double, D> force = part * weight * span.fixed_force_B_N + follower;
-    total.force_N += follower;
-    total.moment_Nmm += arm_cross(Vector<double, D>(at.position_B_mm - pose.position_B_mm), force);
+    const Vector<double, D> arm_mm = weight * (at.position_B_mm - pose.position_B_mm);
+    mean_arm_mm += arm_mm;
+    if (!follows) return;
+    const Vector<double, D> follower_N = part * (at.rotation_BS * span.follower_force_S_N);
+    total.force_N += weight * follower_N;
+    total.moment_Nmm += arm_cross(arm_mm, follower_N);
   };
   add(pose, lobatto_end_weight);
   add(rod_.poses[k + 1], lobatto_end_weight);
-  for (std::size_t i = 0; i < lobatto_points.size(); ++i)
-    add(arc.pose(fraction + part * lobatto_points[i]), lobatto_weights[i]);
+  for (std::size_t i = 0; i < lobatto_points.size(); ++i) add(poses[i + 1], lobatto_weights[i]);
+  total.moment_Nmm += part * arm_cross(mean_arm_mm, span.fixed_force_B_N);
   return total;
 }
 
@@ -200,37 +251,49 @@ void BasicShape<D>::reserve(std::size_t arcs) {
 }
 
 template <int D>
-void BasicShape<D>::set(const SolvedRod<D>& rod) {
+void BasicShape<D>::begin(const SolvedRod<D>& rod) {
   rod_ = rod;
   distal_totals_B_.resize(rod.arcs.size());
   span_of_arc_.clear();
   for (std::size_t i = 0; i < rod.spans.size(); ++i) {
     span_of_arc_.resize(static_cast<std::size_t>(rod.spans[i].end_arc), static_cast<int>(i));
   }
-  BasicWrench<double, D> total;  // base frame
-  for (std::size_t i = rod.spans.size(); i-- > 0;) {
-    const SpanArcs<D>* span = &rod.spans[i];
-    const Eigen::Matrix<double, D, D>& R = rod.poses[static_cast<std::size_t>(span->end_arc)].rotation_BS;
-    BasicWrench<double, D> loads_S;
-    span->template add_point_loads<double>(R.transpose(), loads_S);
-    total.force_N += span->fixed_load_B.force_N + R * span->follower_load_S.force_N;
-    if constexpr (D == 3) total.moment_Nmm += R * loads_S.moment_Nmm;
-    else total.moment_Nmm += loads_S.moment_Nmm;
-    for (int arc = span->end_arc; arc-- > span->first_arc;) {
-      distal_totals_B_[static_cast<std::size_t>(arc)] = total;
-      ArcInterior<D> inside(rod_, *span, arc);
-      total = wrench_towards(inside, 0, rod.poses[static_cast<std::size_t>(arc)]);
-    }
-  }
-  base_total_B_ = total;
 }
 
 template <int D>
-BasicWrench<double, D> BasicShape<D>::total_B(ArcInterior<D>& arc, double fraction, const BasicPose<D>& pose) const {
-  const auto k = static_cast<std::size_t>(arc.arc());
-  if (fraction >= 1) return distal_totals_B_[k];
-  if (fraction <= 0 && k == 0) return base_total_B_;
-  return wrench_towards(arc, fraction, pose);
+void BasicShape<D>::add_point_loads(const SpanArcs<D>& span, BasicWrench<double, D>& total_B) const {
+  const Eigen::Matrix<double, D, D>& R = rod_.poses[static_cast<std::size_t>(span.end_arc)].rotation_BS;
+  BasicWrench<double, D> loads_S;
+  span.template add_point_loads<double>(R.transpose(), loads_S);
+  total_B.force_N += span.fixed_load_B.force_N + R * span.follower_load_S.force_N;
+  if constexpr (D == 3) total_B.moment_Nmm += R * loads_S.moment_Nmm;
+  else total_B.moment_Nmm += loads_S.moment_Nmm;
+}
+
+template <int D>
+BasicWrench<double, D> BasicShape<D>::proximal_total_B(ArcInterior<D>& arc) const {
+  if (arc.span().distributed) return wrench_towards(arc, 0, arc.poses(places_beyond(0)));
+  return wrench_towards(arc, 0, {&rod_.poses[static_cast<std::size_t>(arc.arc())], 1});
+}
+
+// Poses and totals at up to four fractions.
+template <int D>
+typename BasicShape<D>::Sections BasicShape<D>::totals(ArcInterior<D>& arc, std::span<const double> fractions) const {
+  Sections result;
+  if (arc.span().distributed) {
+    for (std::size_t i = 0; i < fractions.size(); ++i) {
+      const PosesAtOnce<D> poses = arc.poses(places_beyond(fractions[i]));
+      result[i] = {poses[0], wrench_towards(arc, fractions[i], poses)};
+    }
+    return result;
+  }
+  PlacesAtOnce places;
+  places.fill(fractions.back());
+  std::copy(fractions.begin(), fractions.end(), places.begin());
+  const PosesAtOnce<D> poses = arc.poses(places);
+  for (std::size_t i = 0; i < fractions.size(); ++i)
+    result[i] = {poses[i], wrench_towards(arc, fractions[i], {&poses[i], 1})};
+  return result;
 }
 
 template <int D>
@@ -241,23 +304,16 @@ BasicScrew<double, D> BasicShape<D>::strain_under(const SpanArcs<D>& span,
 }
 
 template <int D>
-BasicScrew<double, D> BasicShape<D>::strain_per_mm(ArcInterior<D>& arc, double fraction) const {
-  const BasicPose<D> pose = arc.pose(fraction);
-  const BasicWrench<double, D> total_S = turned<D>(pose.rotation_BS.transpose(), total_B(arc, fraction, pose));
-  return (1 / arc.span().constants.length_mm) * strain_under(arc.span(), total_S);
-}
-
-template <int D>
-typename BasicShape<D>::Section BasicShape<D>::section(ArcInterior<D>& arc, double fraction) const {
-  Section result;
-  result.pose = arc.pose(fraction);
-  result.own_B = total_B(arc, fraction, result.pose);
+typename BasicShape<D>::Sections BasicShape<D>::sections(ArcInterior<D>& arc, std::span<const double> fractions) const {
+  Sections result = totals(arc, fractions);
   const auto& tendons = arc.span().constants.tendons;
   if (tendons.empty()) return result;
-  const Eigen::Matrix<double, D, D>& R = result.pose.rotation_BS;
-  const BasicWrench<double, D> total_S = turned<D>(R.transpose(), result.own_B);
-  const BasicScrew<double, D> strain = strain_under(arc.span(), total_S);
-  result.own_B = turned<D>(R, total_S + (-1.0) * tendon_pulls(tendons, strain));
+  for (std::size_t i = 0; i < fractions.size(); ++i) {
+    const Eigen::Matrix<double, D, D>& R = result[i].pose.rotation_BS;
+    const BasicWrench<double, D> total_S = turned<D>(R.transpose(), result[i].own_B);
+    const BasicScrew<double, D> strain = strain_under(arc.span(), total_S);
+    result[i].own_B = turned<D>(R, total_S + (-1.0) * tendon_pulls(tendons, strain));
+  }
   return result;
 }
 

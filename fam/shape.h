@@ -11,6 +11,7 @@
 
 #include "fam/arc_law.h"
 #include "fam/march.h"
+#include "fam/poses_in_arc.h"
 
 #include <array>
 #include <vector>
@@ -36,9 +37,15 @@ class ArcInterior {
   // At a fraction in [0, 1] of the arc's length from its proximal end: pose, and total wrench as the law carries it
   // (coupled laws).
   BasicPose<D> pose(double fraction);
+  PosesAtOnce<D> poses(const PlacesAtOnce& fractions);
   BasicWrench<double, D> wrench(double fraction);
+  // (u, v) by the series about the arc's distal end, of whatever law.
+  BasicScrew<double, D> strain_per_mm(double fraction);
 
  private:
+  void make_series();
+  template <bool with_shear>
+  void make_series();
   template <bool with_shear>
   BasicMotion<double, D> step(double fraction, BasicWrench<double, D>& wrench);
   BasicMotion<double, D> step(double fraction, BasicWrench<double, D>& wrench);
@@ -47,8 +54,7 @@ class ArcInterior {
   const SpanArcs<D>* span_;
   int arc_;
   bool has_series_ = false;
-  RodSeries<double, D, 7> series_;       // with distributed forces
-  RodSeries<double, D, 6> first_terms_;  // without
+  RodSeries<double, D, 7> series_;
 };
 
 // Whether a straight tendon (fam/tendon.h), which the laws do not check, has collapsed (smallest_tendon_stretch).
@@ -65,22 +71,32 @@ class BasicShape {
  public:
   void reserve(std::size_t arcs);
   // Keeps the rod's views. Cost linear in the arcs; takes memory where there are more than ever before.
-  void set(const SolvedRod<D>& rod);
+  // after_arc(arc): sees the interior of each, from the tip; what lies from there on may be asked for.
+  template <class AfterArc>
+  void set(const SolvedRod<D>& rod, const AfterArc& after_arc);
+  void set(const SolvedRod<D>& rod) {
+    set(rod, [](const auto&) {});
+  }
 
   // Pose, and the rod's own internal wrench (base frame, of the side towards the clamp, loads included).
   struct Section {
     BasicPose<D> pose;
     BasicWrench<double, D> own_B;
   };
+  using Sections = std::array<Section, places_at_once>;
   ArcInterior<D> interior(int arc) const { return {rod_, span_of(arc), arc}; }
-  Section section(ArcInterior<D>& arc, double fraction) const;
-  BasicScrew<double, D> strain_per_mm(ArcInterior<D>& arc, double fraction) const;  // (u, v)
+  // At no more fractions of an arc than places_at_once.
+  Sections sections(ArcInterior<D>& arc, std::span<const double> fractions) const;
 
  private:
-  // Of all, tendons' pulls among it: base frame; section frame.
-  BasicWrench<double, D> total_B(ArcInterior<D>& arc, double fraction, const BasicPose<D>& pose) const;
+  void begin(const SolvedRod<D>& rod);
+  // Total wrenches, tendons' pulls among them: base frame; section frame.
+  void add_point_loads(const SpanArcs<D>& span, BasicWrench<double, D>& total_B) const;
+  BasicWrench<double, D> proximal_total_B(ArcInterior<D>& arc) const;
+  Sections totals(ArcInterior<D>& arc, std::span<const double> fractions) const;
+  BasicWrench<double, D> wrench_towards(const ArcInterior<D>& arc, double fraction,
+                                        std::span<const BasicPose<D>> poses) const;
   BasicScrew<double, D> strain_under(const SpanArcs<D>& span, const BasicWrench<double, D>& total_S) const;
-  BasicWrench<double, D> wrench_towards(ArcInterior<D>& arc, double fraction, const BasicPose<D>& pose) const;
   const SpanArcs<D>& span_of(int arc) const {
     return rod_.spans[static_cast<std::size_t>(span_of_arc_[static_cast<std::size_t>(arc)])];
   }
@@ -88,7 +104,23 @@ class BasicShape {
   SolvedRod<D> rod_;
   std::vector<int> span_of_arc_;
   std::vector<BasicWrench<double, D>> distal_totals_B_;  // at the arcs' distal ends, loads there included
-  BasicWrench<double, D> base_total_B_;
 };
+
+template <int D>
+template <class AfterArc>
+void BasicShape<D>::set(const SolvedRod<D>& rod, const AfterArc& after_arc) {
+  begin(rod);
+  BasicWrench<double, D> total_B;
+  for (std::size_t i = rod_.spans.size(); i-- > 0;) {
+    const SpanArcs<D>& span = rod_.spans[i];
+    add_point_loads(span, total_B);
+    for (int k = span.end_arc; k-- > span.first_arc;) {
+      distal_totals_B_[static_cast<std::size_t>(k)] = total_B;
+      ArcInterior<D> arc(rod_, span, k);
+      total_B = proximal_total_B(arc);
+      after_arc(arc);
+    }
+  }
+}
 
 }  // namespace fam

@@ -20,11 +20,13 @@ struct StationPlace {
   bool required;
 };
 
-// All candidates in order, without the clamp; each arc's interior is cut so that no piece turns far.
+// All candidates in order; each arc's interior is cut so that no piece turns far.
 template <int D>
 std::vector<StationPlace> places(std::span<const scene::Span> spans, const SolvedRod<D>& rod) {
   const double length_mm = spans.back().end_mm;
   std::vector<StationPlace> result;
+  result.reserve(rod.arcs.size() + intervals + 1);
+  result.push_back({0, 0, 0, true});
   int next = 1;  // of s = L next/40
   for (std::size_t i = 0; i < spans.size(); ++i) {
     const SpanArcs<D>& arcs = rod.spans[i];
@@ -45,7 +47,7 @@ std::vector<StationPlace> places(std::span<const scene::Span> spans, const Solve
         for (; next < intervals && length_mm * next / intervals < end_mm - hair_mm; ++next) {
           const double s_mm = length_mm * next / intervals;
           const double fraction = std::clamp((s_mm - start_mm) / h_mm, 0.0, 1.0);
-          if (s_mm > (result.empty() ? 0 : result.back().s_mm) + hair_mm) result.push_back({s_mm, arc, fraction, true});
+          if (s_mm > result.back().s_mm + hair_mm) result.push_back({s_mm, arc, fraction, true});
         }
         const bool at_fortieth = next < intervals && std::abs(length_mm * next / intervals - end_mm) <= hair_mm;
         if (at_fortieth) ++next;
@@ -60,6 +62,7 @@ std::vector<StationPlace> places(std::span<const scene::Span> spans, const Solve
 template <int D>
 std::vector<StationPlace> thinned(std::vector<StationPlace> all, const SolvedRod<D>& rod) {
   std::vector<StationPlace> kept;
+  kept.reserve(all.size());
   double turned = 0, fraction_before = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const BasicArc<D>& arc = rod.arcs[static_cast<std::size_t>(all[i].arc)];
@@ -93,52 +96,61 @@ double stretch(const Vector3d& u, const Vector3d& v, const Vector3d& arm_mm) {
 }
 
 // int |e_x + u0 x r| ds - int |v + u x r| ds by Gauss' rule of order eight on each arc, section frames.
-template <int D>
-std::vector<double> shortenings_mm(const scene::Scene& scene, std::span<const scene::Span> spans,
-                                   const SolvedRod<D>& rod, const BasicShape<D>& shape, const Matrix3d& rotation_BP) {
-  std::vector<const scene::Tendon*> tendons;
-  for (const scene::Load& load : scene.loads) {
-    if (const scene::Tendon* tendon = scene::tendon_of(load)) tendons.push_back(tendon);
+class Shortenings {
+ public:
+  Shortenings(const scene::Scene& scene, std::vector<double>& shortening_mm) : shortening_mm_(shortening_mm) {
+    for (const scene::Load& load : scene.loads) {
+      if (const scene::Tendon* tendon = scene::tendon_of(load)) tendons_.push_back(tendon);
+    }
+    shortening_mm.assign(tendons_.size(), 0);
   }
-  std::vector<double> result(tendons.size(), 0);
-  if (tendons.empty()) return result;
-  for (std::size_t i = 0; i < spans.size(); ++i) {
-    const double middle_mm = (spans[i].start_mm + spans[i].end_mm) / 2;
-    const double h_mm = spans[i].length_mm() / (rod.spans[i].end_arc - rod.spans[i].first_arc);
-    for (int k = rod.spans[i].first_arc; k < rod.spans[i].end_arc; ++k) {
-      ArcInterior<D> arc = shape.interior(k);
-      for (std::size_t g = 0; g < gauss_points.size(); ++g) {
-        const BasicScrew<double, D> strain = shape.strain_per_mm(arc, gauss_points[g]);
-        const Vector3d u = angular_in_base(strain.rotation, rotation_BP),
-                       v = in_base(strain.translation_mm, rotation_BP);
-        for (std::size_t t = 0; t < tendons.size(); ++t) {
-          if (middle_mm > tendons[t]->to_mm) continue;
-          const Vector3d arm_mm(0, tendons[t]->offset_mm[0], tendons[t]->offset_mm[1]);
-          const double at_rest = stretch(spans[i].rest_curvature_per_mm, Vector3d::UnitX(), arm_mm);
-          result[t] += gauss_weights[g] * h_mm * (at_rest - stretch(u, v, arm_mm));
-        }
+
+  template <int D>
+  void add(ArcInterior<D>& arc, const scene::Span& span, const Matrix3d& rotation_BP) {
+    if (tendons_.empty()) return;
+    const double middle_mm = (span.start_mm + span.end_mm) / 2, h_mm = arc.span().constants.length_mm;
+    for (std::size_t g = 0; g < gauss_points.size(); ++g) {
+      const BasicScrew<double, D> strain_per_mm = arc.strain_per_mm(gauss_points[g]);
+      const Vector3d u = angular_in_base(strain_per_mm.rotation, rotation_BP),
+                     v = in_base(strain_per_mm.translation_mm, rotation_BP);
+      for (std::size_t t = 0; t < tendons_.size(); ++t) {
+        if (middle_mm > tendons_[t]->to_mm) continue;
+        const Vector3d arm_mm(0, tendons_[t]->offset_mm[0], tendons_[t]->offset_mm[1]);
+        const double at_rest = stretch(span.rest_curvature_per_mm, Vector3d::UnitX(), arm_mm);
+        shortening_mm_[t] += gauss_weights[g] * h_mm * (at_rest - stretch(u, v, arm_mm));
       }
     }
   }
-  return result;
-}
+
+ private:
+  std::vector<const scene::Tendon*> tendons_;
+  std::vector<double>& shortening_mm_;
+};
 
 }  // namespace
 
 template <int D>
 void set_shape(scene::Equilibrium& result, const scene::Scene& scene, std::span<const scene::Span> spans,
                const SolvedRod<D>& rod, const Matrix3d& rotation_BP) {
-  BasicShape<D> shape;
-  shape.set(rod);
-  ArcInterior<D> arc = shape.interior(0);
   const std::vector<StationPlace> kept = thinned(places(spans, rod), rod);
-  result.stations.reserve(kept.size() + 1);
-  result.stations.push_back(station<D>(0, shape.section(arc, 0), rotation_BP));
-  for (const StationPlace& place : kept) {
-    if (place.arc != arc.arc()) arc = shape.interior(place.arc);
-    result.stations.push_back(station<D>(place.s_mm, shape.section(arc, place.fraction), rotation_BP));
-  }
-  result.tendon_shortening_mm = shortenings_mm(scene, spans, rod, shape, rotation_BP);
+  result.stations.assign(kept.size(), {});
+  Shortenings shortenings(scene, result.tendon_shortening_mm);
+  BasicShape<D> shape;
+  std::size_t end = kept.size();  // of the places not met yet
+  shape.set(rod, [&](ArcInterior<D>& arc) {
+    PlacesAtOnce fractions;
+    while (end > 0 && kept[end - 1].arc == arc.arc()) {
+      std::size_t count = 0;
+      while (count < places_at_once && count < end && kept[end - 1 - count].arc == arc.arc()) {
+        fractions[count] = kept[end - 1 - count].fraction;
+        ++count;
+      }
+      const auto sections = shape.sections(arc, {fractions.data(), count});
+      for (std::size_t i = 0; i < count; ++i, --end)
+        result.stations[end - 1] = station<D>(kept[end - 1].s_mm, sections[i], rotation_BP);
+    }
+    shortenings.add(arc, spans[static_cast<std::size_t>(&arc.span() - rod.spans.data())], rotation_BP);
+  });
 }
 
 template void set_shape(scene::Equilibrium&, const scene::Scene&, std::span<const scene::Span>, const SolvedRod<2>&,

@@ -59,11 +59,11 @@ RodSeries<Wide, 3, terms> wide(const RodSeries<double, 3, terms>& series) {
   return s;
 }
 
-template <bool with_shear, std::size_t terms>
-RigidMotion wide_part_step(const RodSeries<double, 3, terms>& series, double part, SectionWrench& wrench) {
-  RodSeries<Wide, 3, terms> s = wide<with_shear>(series);
+template <bool with_shear>
+RigidMotion wide_part_step(const RodSeries<double, 3, 7>& series, double part, bool distributed,
+                           SectionWrench& wrench) {
   BasicWrench<Wide, 3> wide_wrench = wide(wrench);
-  const BasicMotion<Wide, 3> motion = part_step<with_shear>(s, part, wide_wrench);
+  const BasicMotion<Wide, 3> motion = part_step<with_shear>(series, Wide(part), distributed, wide_wrench);
   wrench = narrow(wide_wrench);
   return narrow(motion);
 }

@@ -87,6 +87,25 @@ TEST(Answers, TendonsStiffenARodAgainstTorsion) {
   }
 }
 
+// Where the curvature changes along the arcs, against the exact reference.
+TEST(Answers, TendonsShortenAsTheExactOnes) {
+  const auto loads = [](double out_of_plane_N) -> std::vector<scene::Load> {
+    return {scene::Tendon{{1.5, 0.4}, 3, 40}, scene::Tendon{{-0.7, 1.6}, 2, 25},
+            scene::Force{40, Frame::fixed, {0, 0.8, out_of_plane_N}},
+            scene::DistributedForce{10, 40, Frame::follower, {0, -0.03, 0.1 * out_of_plane_N}}};
+  };
+  for (const double out_of_plane_N : {0., 0.3}) {
+    Scene scene = uniform_rod(40, slender(750, 500), loads(out_of_plane_N));
+    scene.sections[0].rest_curvature_per_mm = {0, 0, 0.01};
+    const Equilibrium exact = exact_reference::solve(scene, {.tolerance = 1e-12});
+    const Equilibrium result = solved(scene, 1e-6), twin = solved(support::stiffer(scene), 1e-6);
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_NEAR(result.tendon_shortening_mm[k], exact.tendon_shortening_mm[k], 1e-6) << k;
+      EXPECT_GT(std::abs(twin.tendon_shortening_mm[k] - exact.tendon_shortening_mm[k]), 1e-3) << k;
+    }
+  }
+}
+
 // What the loads beyond a station and the tendons through it leave to the rod, by sums over the returned shape alone.
 struct Balance {
   Vector3d force_N = Vector3d::Zero(), moment_Nmm = Vector3d::Zero();  // missing

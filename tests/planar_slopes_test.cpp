@@ -1,12 +1,14 @@
 // The slopes of an arc in the plane are those of the same arc taken as one in space; so are a rod's derivatives.
 #include "fam/arc_law.h"
 #include "fam/arc_slopes.h"
+#include "fam/poses_in_arc.h"
 #include "fam/solver.h"
 #include "response_support.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <random>
 #include <span>
 
@@ -142,12 +144,12 @@ void expect_same_step(const PlanarArc& arc, const fam::ArcForces<double, 3>* for
 }
 
 // With 300 N half of the sections with shear are beyond Newton's method alone; most of those have no strain at all.
-template <std::size_t terms>
 void expect_same_part(const PlanarArc& arc, const fam::ArcForces<double, 3>* forces, double part) {
-  const auto series = fam::elastic_series<true, terms>(arc.constants, forces, arc.wrench, fam::VectorUnit::portable);
+  const auto series = fam::elastic_series<true, 7>(arc.constants, forces, arc.wrench, fam::VectorUnit::portable);
   fam::SectionWrench narrow = arc.wrench, wide = arc.wrench;
-  const fam::RigidMotion a = fam::step_of_part<true>(series, part, narrow, fam::VectorUnit::portable);
-  const fam::RigidMotion b = fam::step_of_part<true>(series, part, wide, fam::widest_unit());
+  const fam::RigidMotion a =
+      fam::step_of_part<true>(series, part, forces != nullptr, narrow, fam::VectorUnit::portable);
+  const fam::RigidMotion b = fam::step_of_part<true>(series, part, forces != nullptr, wide, fam::widest_unit());
   EXPECT_LE((b.position_mm - a.position_mm).norm(), 1e-13 * a.position_mm.norm());
   EXPECT_LE((b.rotation - a.rotation).norm(), 1e-13 * a.rotation.norm());
   EXPECT_LE((wide.moment_Nmm - narrow.moment_Nmm).norm(), 1e-13 * narrow.moment_Nmm.norm());
@@ -167,9 +169,52 @@ TEST(ArcSteps, PartsOfEveryVectorUnitAreTheSame) {
     arc.wrench.moment_Nmm[0] = 50;
     arc.forces.fixed_D_N[2] = 1;
     for (const double part : {0.3, 1.}) {
-      expect_same_part<6>(arc, nullptr, part);
-      expect_same_part<7>(arc, &arc.forces, part);
+      expect_same_part(arc, nullptr, part);
+      expect_same_part(arc, &arc.forces, part);
     }
+  }
+}
+
+// Each pose, moved on by the part of the arc beyond it, is that of the distal end.
+TEST(ArcSteps, PosesInAnArcLeadOnToItsEnd) {
+  std::mt19937 random(12);
+  const fam::SectionPose distal = fam::SectionPose{}.then(fam::exponential(fam::Screw{{0.3, -2, 1}, {10, -20, 30}}));
+  const fam::PlacesAtOnce fractions{0, 0.2, 0.7, 1};
+  for (int i = 0; i < 50; ++i) {
+    PlanarArc arc = random_arc(random);
+    arc.wrench.force_N[2] = 5;
+    arc.wrench.moment_Nmm[0] = 50;
+    const auto series = fam::elastic_series<true, 7>(arc.constants, &arc.forces, arc.wrench);
+    for (const fam::VectorUnit unit : {fam::VectorUnit::portable, fam::widest_unit()}) {
+      fam::PosesAtOnce<3> poses;
+      ASSERT_TRUE(fam::poses_in_arc<true>(series, fractions, distal, poses, unit));
+      for (std::size_t k = 0; k < fractions.size(); ++k) {
+        fam::SectionWrench wrench = arc.wrench;
+        const fam::SectionPose end = poses[k].then(fam::step_of_part<true>(series, 1 - fractions[k], true, wrench));
+        EXPECT_LE((end.position_B_mm - distal.position_B_mm).norm(), 1e-13 * 40);
+        EXPECT_LE((end.rotation_BS - distal.rotation_BS).norm(), 1e-14);
+        const fam::SectionPose twin = poses[k].then(fam::step_of_part<true>(series, 1.01 - fractions[k], true, wrench));
+        EXPECT_GT((twin.position_B_mm - distal.position_B_mm).norm(), 0.1);
+      }
+    }
+  }
+}
+
+// A rod that is bent at rest turns by any angle in one arc.
+TEST(ArcSteps, PosesInAnArcThatTurnsFarAreLeftToOthers) {
+  fam::RodSeries<double, 2, 7> series;
+  for (std::size_t k = 0; k < 7; ++k) series.rotation[k].setZero(), series.translation_mm[k].setZero();
+  series.translation_mm[0] = {20, 0};
+  for (const double turn_rad : {1.9, 2.1}) {
+    series.rotation[0][0] = turn_rad;
+    fam::PosesAtOnce<2> poses;
+    ASSERT_EQ((fam::poses_in_arc<false>(series, {0, 0.5, 0.5, 1}, fam::BasicPose<2>{}, poses)), turn_rad < 2);
+    if (turn_rad > 2) continue;
+    // A circle's chord, and where the arc begins as its distal end sees it.
+    const double radius_mm = 20 / turn_rad;
+    EXPECT_NEAR(poses[1].position_B_mm.norm(), 2 * radius_mm * std::sin(turn_rad / 4), 1e-13);
+    EXPECT_NEAR(poses[0].position_B_mm[0], -radius_mm * std::sin(turn_rad), 1e-13);
+    EXPECT_NEAR(poses[0].position_B_mm[1], radius_mm * (1 - std::cos(turn_rad)), 1e-13);
   }
 }
 

@@ -52,12 +52,12 @@ std::pair<fam::ArcInterior<3>, double> SolvedRod::place(double s_mm) const {
 
 fam::BasicShape<3>::Section SolvedRod::section(double s_mm) const {
   auto [arc, fraction] = place(s_mm);
-  return shape_->section(arc, fraction);
+  return shape_->sections(arc, {&fraction, 1})[0];
 }
 
 fam::BasicScrew<double, 3> SolvedRod::strain_per_mm(double s_mm) const {
   auto [arc, fraction] = place(s_mm);
-  return shape_->strain_per_mm(arc, fraction);
+  return arc.strain_per_mm(fraction);
 }
 
 Scene changed(Scene scene, const fam::Parameter& parameter, double change) {
