@@ -45,13 +45,14 @@ double determinant_ratio(const PathPlace& place, const PathPlace& other) {
 std::optional<std::vector<PathWalk::Event>> PathWalk::events_between(const PathPlace& from, const PathPlace& next) {
   std::vector<Event> events;
   if (!from.is_fork) {
-    add_turning_points(from, next, events);
+    add_free_turn(from, next, events);
+    if (events.empty()) add_turning_points(from, next, events);
     int explained = 0;
     for (const Event& event : events) {
       if (event.length < 0) return std::nullopt;
       explained += event.multiplicity;
     }
-    if (from.index && next.index) {
+    if (from.index && next.index && !stepper_.is_free_turn(next)) {
       const int change = std::abs(*next.index - *from.index);
       if (change > explained || (explained - change) % 2 != 0) {
         if (length_ > unexplained_length) return std::nullopt;
@@ -78,7 +79,7 @@ bool PathWalk::hold_on_more_arcs(PathPlace& from, std::vector<Event>& events) {
   const auto critical = [](std::vector<Event>& all) {
     std::vector<Event*> those;
     for (Event& e : all) {
-      if (e.kind == Kind::fold || e.kind == Kind::branch || e.is_arrival) those.push_back(&e);
+      if (e.kind == Kind::fold || (e.kind == Kind::branch && !e.is_free_turn) || e.is_arrival) those.push_back(&e);
     }
     return those;
   };
@@ -117,7 +118,7 @@ std::optional<std::vector<PathWalk::Event>> PathWalk::events_anew(const PathPlac
 // `from` gets more arcs.
 bool PathWalk::stops_are_accurate(PathPlace& from, const std::vector<Event>& events) {
   for (const Event& event : events) {
-    const bool is_stop = event.kind == Kind::regular || event.kind == Kind::end;
+    const bool is_stop = event.kind == Kind::regular || event.kind == Kind::end || event.is_free_turn;
     if (is_stop && !stepper_.is_accurate(event.place) && stepper_.may_double())
       return from.is_fork ? !relocate(from) : !stepper_.refine_for(event.place, from);
   }
@@ -145,6 +146,19 @@ bool PathWalk::relocate(PathPlace& start) {
   fork.before = stepper_.saved(from);
   start = stepper_.fork(found->place, fork.multiplicity);
   return true;
+}
+
+// The stiffness against a turn about the axis goes through zero there: steps end there (take_step).
+void PathWalk::add_free_turn(const PathPlace& from, const PathPlace& next, std::vector<Event>& events) {
+  if (stepper_.is_free_turn(next)) {
+    events.push_back({length_, next, Kind::branch, 1});
+    events.back().is_free_turn = true;
+    return;
+  }
+  const std::optional<double> there = stepper_.free_parameter();
+  if (!there || (from.state.parameter - *there) * (next.state.parameter - *there) >= 0) return;
+  const auto place = stepper_.at(from, *there, curvature_);
+  if (!place || place->is_free) events.push_back({-1, from, Kind::branch});
 }
 
 void PathWalk::add_turning_points(const PathPlace& from, const PathPlace& next, std::vector<Event>& events) {
@@ -182,9 +196,18 @@ void PathWalk::add_stops(const Stretch& within, std::vector<Event>& events) {
   const double low = within.from.state.parameter, high = within.next.state.parameter;
   const auto add_located = [&](double value, std::optional<PathStatus> status) {
     if (!((low - value) * (high - value) < 0 || high == value)) return;
+    const auto free = std::find_if(events.begin(), events.end(), [&](const Event& event) {
+      return event.is_free_turn && event.place.state.parameter == value;
+    });
+    if (free != events.end()) {
+      free->end = status;
+      if (status) free->kind = Kind::end;
+      return;
+    }
     std::optional<Event> event = located(within, status ? Kind::end : Kind::regular,
                                          [&](const PathPlace& p) { return p.state.parameter - value; });
-    if (const auto exact = event ? stepper_.at(event->place, value) : std::nullopt) event->place = *exact;
+    if (const auto exact = event ? stepper_.at(event->place, value, stepper_.equations().zero_change()) : std::nullopt)
+      event->place = *exact;
     if (event && std::abs(event->place.state.parameter - value) <= stops_to * stepper_.unit())
       event->place.state.parameter = value;
     else event = Event{-1, within.from, Kind::regular, 0};

@@ -46,6 +46,10 @@ PathEquations::Settings settings_for(const scene::PathRequest& request, const Op
   return result;
 }
 
+bool tells_no_direction(std::span<const scene::Span> spans) {
+  return scene::needs_no_plane(spans) && scene::is_isotropic(spans);
+}
+
 }  // namespace
 
 PathStepper::PathStepper(const scene::PathRequest& request, const Options& options, const Settings& settings)
@@ -64,9 +68,12 @@ void PathStepper::set_symmetry(const scene::PathRequest& request) {
     const std::span<const scene::Span> spans = equations_.spans_at(parameter);
     const Symmetry symmetry = scene::symmetry_of(spans);
     symmetry_ = first ? symmetry : scene::common_symmetry(symmetry_, symmetry);
-    is_round_ = is_round_ && scene::needs_no_plane(spans) && scene::is_isotropic(spans);
+    is_round_ = is_round_ && tells_no_direction(spans);
     first = false;
   }
+  const bool has_zero =
+      request.parameter != scene::PathParameter::turn_rad && settings_.lowest <= 0 && settings_.highest >= 0;
+  if (!is_round_ && has_zero && tells_no_direction(equations_.spans_at(0))) free_parameter_ = 0;
 }
 
 bool PathStepper::is_held_by(const PathState& state, Symmetry symmetry) const {
@@ -142,13 +149,18 @@ std::optional<PathPlace> PathStepper::start(double parameter, bool upwards) {
 
 std::optional<PathPlace> PathStepper::corrected(PathState guess, const PathBorder::Row& row, Newton newton) {
   PathPlace place;
-  place.is_free = is_round_ && equations_.held() != Symmetry::axis;
+  const auto is_bent = [&](const PathState& state) {
+    return is_round_ ? equations_.held() != Symmetry::axis : !is_held_by(state, Symmetry::axis);
+  };
+  const bool may_turn = is_round_ || guess.parameter == free_parameter_;
+  place.is_free = may_turn && is_bent(guess);
   PathBorder border{row, std::nullopt};
   if (place.is_free) border.phase = equations_.phase_row(guess);
   const double tolerance = newton == Newton::usual ? equations_.newton_tolerance() : tight_tolerance;
   const auto linear = equations_.correct(guess, border, tolerance);
   if (!linear) return std::nullopt;
   place.state = std::move(guess);
+  place.is_free = place.is_free && is_bent(place.state);
   place.tangent = linear->tangent;
   place.determinant = linear->determinant;
   place.surprise_rad = linear->first_step_rad;
@@ -177,13 +189,21 @@ std::optional<PathPlace> PathStepper::step(const PathPlace& from, double length,
   return corrected(equations_.moved(from.state, change), equations_.row_across(from.tangent), newton);
 }
 
-std::optional<PathPlace> PathStepper::at(const PathPlace& near, double parameter) {
+std::optional<PathPlace> PathStepper::at(const PathPlace& near, double parameter, const PathChange& curvature) {
   const double slope = near.slope() * settings_.unit;
   if (slope == 0) return std::nullopt;
-  PathState guess = equations_.moved(near.state, near.tangent, (parameter - near.state.parameter) / slope);
+  const double straight = (parameter - near.state.parameter) / slope;
+  const double bend = curvature[curvature.size() - 1] * settings_.unit / 2;
+  const double length = straight / (1 + straight * bend / slope);
+  PathState guess = equations_.moved(near.state, length * (near.tangent + (length / 2) * curvature));
   guess.parameter = parameter;
   auto place = judged(corrected(guess, {0, Vector3d::Zero(), slope > 0 ? 1.0 : -1.0}, Newton::tight));
-  if (place) place->state.parameter = parameter;
+  if (!place) return std::nullopt;
+  place->state.parameter = parameter;
+  if (!is_round_ && place->is_free) {  // how the path turns the rod, no equation tells there
+    place->tangent = near.tangent + length * curvature;
+    place->tangent /= std::sqrt(inner(place->tangent, place->tangent));
+  }
   return place;
 }
 

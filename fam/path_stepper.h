@@ -60,8 +60,12 @@ class PathStepper {
                                 Newton newton = Newton::usual);
   // Tells index, accuracy and tip of the place found last. False: its shape is not finite.
   bool judge(PathPlace& place);
-  // The solution with exactly this parameter, near one.
-  std::optional<PathPlace> at(const PathPlace& near, double parameter);
+  // The solution with exactly this parameter, on the way that tangent and curvature lead from near it.
+  std::optional<PathPlace> at(const PathPlace& near, double parameter, const PathChange& curvature);
+  // The parameter, if there is one, at which alone no direction across is told from another: a bent rod may turn about
+  // its axis there at no cost, and the equations are singular but for a phase.
+  std::optional<double> free_parameter() const { return free_parameter_; }
+  bool is_free_turn(const PathPlace& place) const { return place.is_free && place.state.parameter == free_parameter_; }
 
   // For critical points and stops, which no arc of a regular point tells of.
   bool may_double() const;
@@ -109,6 +113,7 @@ class PathStepper {
   PathEquations equations_;
   scene::Symmetry symmetry_ = scene::Symmetry::none;  // of the scene at all parameters
   bool is_round_ = false;                             // no direction across is told from another, at all parameters
+  std::optional<double> free_parameter_;
   std::string message_;
 };
 

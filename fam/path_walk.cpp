@@ -19,6 +19,8 @@ constexpr double least_alignment = 0.92;  // of the tangents at its ends
 // lie in one, as they do beside each other where a rod buckles that is next to round and straight; down to here.
 constexpr double unwatched_length = 1e-9;
 constexpr double first_look = 1e-4;  // of a step, where nothing is known of the determinant before
+constexpr double free_turn_reach =
+    1e-3;  // of a step to where the rod is free to turn; chosen: the turn is extrapolated
 
 }  // namespace
 
@@ -101,14 +103,15 @@ void PathWalk::follow(PathPlace place, int branch, int multiplicity) {
     for (const Event& event : *events) {
       if (!emit(place, event, branch)) return;
     }
-    add(*next, Kind::regular, branch);
+    const bool is_free_turn = stepper_.is_free_turn(*next);
+    if (!is_free_turn) add(*next, Kind::regular, branch);
     if (static_cast<int>(path_.points.size()) >= settings_.most_points)
       return end(PathStatus::work_limit, std::to_string(path_.points.size()) + " points");
     curvature_ = (next->tangent - place.tangent) / length;
     const double surprise = std::max(next->surprise_rad, 1e-6);
     length_ = std::min(longest_length, length * std::clamp(std::cbrt(wanted_surprise_rad / surprise), 0.5, 2.0));
     place = *next;
-    place.is_fork = false;
+    place.is_fork = is_free_turn;
     travelled_ += length;
     if (length == first_look && wanted > length) length_ = wanted;
     watch(place);
@@ -185,6 +188,21 @@ double PathWalk::watched_length(const PathPlace& from) {
   return std::max(watch_.longest_step(travelled_), unwatched_length);
 }
 
+// Where a step of length_ would pass what makes the rod free to turn, the place there, or nothing and a shorter step:
+// it is not to be stepped over, for beside it a rod turned about its axis is an equilibrium but for next to nothing.
+std::optional<PathPlace> PathWalk::step_to_free_turn(const PathPlace& from) {
+  const std::optional<double> there = stepper_.free_parameter();
+  if (!there || from.slope() == 0) return std::nullopt;
+  const double ahead = (*there - from.state.parameter) / (from.slope() * stepper_.unit());
+  if (!(ahead > 0 && ahead <= length_)) return std::nullopt;
+  const std::optional<PathPlace> place = stepper_.at(from, *there, curvature_);
+  if (place && !place->is_free) return std::nullopt;
+  length_ = ahead;
+  if (place && ahead <= free_turn_reach) return place;
+  length_ /= 2;
+  return std::nullopt;
+}
+
 // A step of length_ or less. Empty: the path ends, or `from` lies on a finer mesh now, for it to be tried anew.
 std::optional<PathPlace> PathWalk::take_step(PathPlace& from) {
   for (;; length_ /= 2) {
@@ -203,7 +221,8 @@ std::optional<PathPlace> PathWalk::take_step(PathPlace& from) {
     const double slope = std::abs(from.slope()) * stepper_.unit();
     if (slope > 0) length_ = std::min(length_, 0.98 * settings_.largest_step / slope);
     length_ = std::min(length_, watched_length(from));
-    std::optional<PathPlace> next = stepper_.step(from, length_, curvature_);
+    std::optional<PathPlace> next = step_to_free_turn(from);
+    if (!next) next = stepper_.step(from, length_, curvature_);
     if (!next && stepper_.tendon_collapsed()) collapsed_at_ = travelled_ + length_;
     if (!next || !is_fit(from, *next) || !stepper_.judge(*next)) continue;
     if (!settings_.range.is_watched && !stepper_.is_small_change(from.state.parameter, next->state.parameter)) continue;
@@ -227,7 +246,8 @@ bool PathWalk::emit(const PathPlace& from, const Event& event, int branch) {
   add(event.place, status ? Kind::end : event.kind, branch, event.multiplicity);
   if (event.parameter_on_more_arcs) path_.points.back().parameter = *event.parameter_on_more_arcs;
   if (event.kind == Kind::fold) stops_.push_back(event.place.state.parameter);
-  if (event.kind == Kind::branch && !event.is_arrival && static_cast<int>(forks_.size()) < settings_.branches)
+  if (event.kind == Kind::branch && !event.is_arrival && !event.is_free_turn &&
+      static_cast<int>(forks_.size()) < settings_.branches)
     forks_.push_back({places_.back(), event.multiplicity, stepper_.saved(from), length_});
   if (status) end(*status);
   return !status;

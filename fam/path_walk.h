@@ -52,6 +52,7 @@ class PathWalk {
     // lies the path's mirror image.
     bool is_arrival = false;
     std::optional<double> parameter_on_more_arcs = std::nullopt;  // of a branch point
+    bool is_free_turn = false;  // where the rod may turn about its axis: the other path is the rod turned
   };
   using Test = std::function<double(const PathPlace&)>;
 
@@ -59,12 +60,14 @@ class PathWalk {
   void start_anew(const PathPlace& place);
   void watch(const PathPlace& place);
   double watched_length(const PathPlace& from);
+  std::optional<PathPlace> step_to_free_turn(const PathPlace& from);
   std::optional<PathPlace> take_step(PathPlace& from);
   bool is_beyond_point(const PathPlace& place) const;
   void go_back(PathPlace& place);
   void replace_last(const PathPlace& place);
   bool is_fit(const PathPlace& from, const PathPlace& next) const;
   std::optional<std::vector<Event>> events_between(const PathPlace& from, const PathPlace& next);
+  void add_free_turn(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
   void add_turning_points(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
   void add_closure(const PathPlace& from, const PathPlace& next, std::vector<Event>& events);
   bool hold_on_more_arcs(PathPlace& from, std::vector<Event>& events);

@@ -92,6 +92,7 @@ std::string line_of(const Path& path, std::size_t i, const std::string& paramete
              (lands < path.points.size() ? "lands with its " + tip(path.points[lands]) : "lands nowhere on this path");
     }
     case PathPoint::Kind::branch:
+      if (point.neutral && !path.points.front().neutral) return "free to turn about its axis " + at;
       return fmt::format("{}branch point {}", point.multiplicity == 2 ? "double " : "", at) +
              (i > 0 && path.points[i - 1].stable.value_or(false) ? ", the rod buckles" : "");
     default: return fmt::format("{} {}, {}, {}", name(point.kind), at, tip(point), in_words(point.stable));

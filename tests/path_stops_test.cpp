@@ -52,6 +52,49 @@ TEST(Path, StopsAreAsAccurateAsASolve) {
   EXPECT_GT(error_mm(support::stiffer(there)), 100 * tolerance_mm);
 }
 
+// A column beyond Euler's load that a small push across holds in its plane, until there is none: the elastica in that
+// plane, free to turn. With a tip at 60 degrees to the column F = K^2, x = 2 E/K - 1 and the tip 2 k/K off the axis, k
+// = sin 30.
+TEST(Path, EndsWhereTheRodIsFreeToTurn) {
+  const double k = std::sin(std::numbers::pi / 6), K = std::comp_ellint_1(k), E = std::comp_ellint_2(k);
+  scene::Scene rod =
+      uniform_rod(1, slender(1, 0.7), {Force{1, Frame::fixed, {-K * K, 0, 0}}, Force{1, Frame::fixed, {0, 0.4, 0.3}}});
+  const auto error = [&](const scene::Scene& of) {
+    PathRequest request = load_path(of, 1, 0);
+    request.loads = {1};
+    const scene::Path path = fam::Path::follow(request, {.tolerance_mm = 1e-9}).points();
+    EXPECT_EQ(path.status, PathStatus::reached);
+    const PathPoint& end = path.points.back();
+    EXPECT_EQ(end.parameter, 0);
+    EXPECT_TRUE(end.neutral);
+    EXPECT_EQ(end.index, 0);
+    return (end.tip_position_B_mm - Eigen::Vector3d(2 * E / K - 1, 2 * k / K * 0.8, 2 * k / K * 0.6)).norm();
+  };
+  EXPECT_LT(error(rod), 1e-7);
+  EXPECT_GT(error(support::stiffer(rod)), 1e-2);
+}
+
+// Beyond, the push is against the bend: the rod would turn, and at a fold it snaps to the other side.
+TEST(Path, PassesWhereTheRodIsFreeToTurn) {
+  for (const double force_N : {2.6, 3.2, 5.0}) {
+    PathRequest request =
+        load_path(uniform_rod(1, slender(1, 0.7),
+                              {Force{1, Frame::fixed, {-force_N, 0, 0}}, Force{1, Frame::fixed, {0, 0.4, 0.3}}}),
+                  1, -1);
+    request.loads = {1};
+    request.branches = 1;
+    const scene::Path path = followed(request).points();
+    EXPECT_EQ(path.status, PathStatus::reached);
+    EXPECT_EQ(path.points.back().branch, 0);
+    const auto free = std::find_if(path.points.begin(), path.points.end(), [](const auto& p) { return p.neutral; });
+    ASSERT_NE(free, path.points.end()) << force_N;
+    EXPECT_EQ(free->parameter, 0);
+    EXPECT_EQ(free->kind, Kind::branch);
+    EXPECT_EQ((free - 1)->index, 0);
+    EXPECT_EQ((free + 1)->index, 1);
+  }
+}
+
 // Near a branch point, of which few arcs tell the place to 4e-5: at stops that close to it the branch is met where it
 // is there, within the tolerance of a path that is a thousand times finer, and followed to its end.
 TEST(Path, StopsBesideABranchPoint) {
