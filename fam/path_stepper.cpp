@@ -4,6 +4,7 @@
 #include "fam/load_length.h"
 #include "fam/rotation.h"
 #include "fam/solution.h"
+#include "fam/solve.h"
 
 #include <algorithm>
 #include <array>
@@ -44,6 +45,15 @@ PathEquations::Settings settings_for(const scene::PathRequest& request, const Op
   set_larger(scene::spans_of(first), scene::spans_of(last), larger);
   result.model = choose_rod(larger, options.model, options.arcs == 0 ? tolerance_mm : 0).model;
   return result;
+}
+
+// As `fam solve` says it.
+std::string why_none(const scene::Equilibrium& solved, const Found& found, const Problem& problem) {
+  if (!solved.converged()) return std::string(scene::name(solved.status)) + ": " + solved.message;
+  return std::string(scene::name(found.status)) + ": " +
+         (found.status == scene::Status::tolerance_not_met
+              ? tolerance_not_met(problem, *found.run, found.error_mm).message
+              : found.run->engine.failure_message(found.status));
 }
 
 bool tells_no_direction(std::span<const scene::Span> spans) {
@@ -105,10 +115,7 @@ std::optional<PathPlace> PathStepper::start(double parameter, bool upwards) {
   Run one, another;
   const Found found = solve_to_tolerance(problem, one, another);
   if (found.status != scene::Status::converged) {
-    message_ = std::string(scene::name(found.status)) + ": " +
-               (found.status == scene::Status::tolerance_not_met
-                    ? tolerance_not_met(problem, *found.run, found.error_mm).message
-                    : found.run->engine.failure_message(found.status));
+    message_ = why_none(solve(scene, options_), found, problem);
     return std::nullopt;
   }
   Solution solution;

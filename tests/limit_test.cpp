@@ -1,6 +1,7 @@
 // What `fam solve` says of random scenes whose growing load it loses, beside the exact reference. Origins stand beside
 // the numbers.
 #include "exact_reference/solve.h"
+#include "fam/path.h"
 #include "fam/solve.h"
 #include "fam/tolerance.h"
 #include "studies/scenes/random_scene.h"
@@ -38,6 +39,19 @@ TEST(Limit, OfColumnsNextToRoundAndStraight) {
       EXPECT_GT(std::abs(stiffer.limit->load_factor / share - 1), 0.01);
     }
   }
+}
+
+// A path that cannot start says why as a solve does.
+TEST(Limit, IsWhyAPathDoesNotStart) {
+  scene::PathRequest request;
+  request.scene = studies::random_scene(studies::campaign_seed(4710, 1949));
+  request.from = 1;
+  request.to = 1.1;
+  const scene::Path none = fam::Path::follow(request).points();
+  EXPECT_EQ(none.status, scene::PathStatus::not_started);
+  EXPECT_EQ(none.message, "limit_point: " + fam::solve(request.scene).message);
+  request.from = 0.8;  // it snaps at 0.862570
+  EXPECT_NE(fam::Path::follow(request).points().status, scene::PathStatus::not_started);
 }
 
 // A soft rod whose path, followed in segments of 4 load lengths, leads to another equilibrium under the full load.

@@ -13,6 +13,7 @@
 namespace {
 
 using namespace path_support;
+using scene::PathParameter;
 using scene::PathStatus;
 
 TEST(Path, StopsAreMetExactlyAndStepsAreShort) {
