@@ -22,6 +22,7 @@ constexpr double sensed_L_mm = 40, sensed_EI_Nmm2 = 1500, sensed_GJ_Nmm2 = 1000;
 constexpr double force_unit_N = sensed_EI_Nmm2 / (sensed_L_mm * sensed_L_mm);
 // Of the base's moment and of the tip's rotation, beside force and position. Chosen.
 constexpr double lever_mm = 10;
+constexpr double tip_noise_over_L = 2e-3;  // of the position beside sensors of curvature; chosen
 
 scene::Scene rod_under(std::vector<scene::Load> loads) {
   scene::Stiffness stiffness;
@@ -114,6 +115,12 @@ std::vector<scene::Measurement> measured(Sensing kind, const scene::Equilibrium&
       for (int i = 0; i < 20; ++i)
         result.push_back(curvature(station_near(exact, length_mm * (2 * i + 1) / 40), noise));
       break;
+    case Sensing::placed_force:
+    case Sensing::placed_moment:
+      for (int i = 1; i <= positions; ++i)
+        result.push_back(curvature(station_near(exact, length_mm * i / (positions + 1)), noise));
+      result.push_back(position(exact.stations.back(), tip_noise_over_L * length_mm));
+      break;
     case Sensing::base_wrench: {
       const scene::Station& base = exact.base();
       const scene::Wrench wrench_B{base.force_B_N, base.moment_B_Nmm};
@@ -131,6 +138,13 @@ std::vector<scene::Scene> worlds(Sensing kind, Noise& random, const std::filesys
       const Vector3d first_N = transverse_N(random, 0.5, 1.5), second_N = transverse_N(random, 0.5, 1.5);
       return {rod_under({fixed_force(first * sensed_L_mm, first_N), fixed_force(second * sensed_L_mm, second_N)})};
     }
+    case Sensing::placed_force:
+    case Sensing::placed_moment: {
+      const double at_mm = random.uniform(0.2, 0.95) * sensed_L_mm;
+      const Vector3d force_N = transverse_N(random, 0.5, 1.5);
+      if (kind == Sensing::placed_force) return {rod_under({fixed_force(at_mm, force_N)})};
+      return {rod_under({scene::Moment{at_mm, scene::Frame::fixed, sensed_L_mm * force_N}})};
+    }
     case Sensing::calibration: {
       std::vector<scene::Scene> poses;
       for (int i = 0; i < 5; ++i) {
@@ -146,10 +160,11 @@ std::vector<scene::Scene> worlds(Sensing kind, Noise& random, const std::filesys
 std::vector<scene::Unknown> unknowns_of(Sensing kind, std::size_t loads) {
   if (kind == Sensing::calibration) return {{Kind::bending_factor}, {Kind::torsion_factor}};
   std::vector<scene::Unknown> unknowns;
-  const bool across = kind == Sensing::two_contacts || kind == Sensing::catheter;
+  const bool placed = kind == Sensing::two_contacts || kind == Sensing::placed_force || kind == Sensing::placed_moment;
+  const bool across = placed || kind == Sensing::catheter;
   for (std::size_t load = 0; load < loads; ++load) {
     for (int axis = across; axis < 3; ++axis) unknowns.push_back({Kind::component, 0, load, axis});
-    if (kind == Sensing::two_contacts) unknowns.push_back({Kind::place, 0, load});
+    if (placed) unknowns.push_back({Kind::place, 0, load});
   }
   return unknowns;
 }
@@ -185,7 +200,9 @@ const SensingWords& words_of(Sensing kind) {
       {"two_contacts", "two contacts and their places from twenty curvatures", "1/mm", {1e-5, 1e-4, 1e-3}},
       {"catheter", "three forces on Study II's catheter from twenty positions", "mm", {0.01, 0.03, 0.1, 0.3, 1}},
       {"base_wrench", "tip force from the base's wrench", "N", {0.001, 0.01, 0.1}},
-      {"calibration", "EI and GJ from five poses of the tip", "mm", {0.01, 0.1, 1}}};
+      {"calibration", "EI and GJ from five poses of the tip", "mm", {0.01, 0.1, 1}},
+      {"placed_force", "a force and its place from curvatures and the tip's position", "1/mm", {1e-5, 1e-4}},
+      {"placed_moment", "a moment and its place from curvatures and the tip's position", "1/mm", {1e-5, 1e-4}}};
   return words[static_cast<int>(kind)];
 }
 

@@ -22,7 +22,17 @@ class Noise {
   std::mt19937_64 engine_;
 };
 
-enum class Sensing { tip_pose, four_positions, two_contacts, catheter, base_wrench, calibration };
+// The last two, with some sensors of curvature, are a table of their own.
+enum class Sensing {
+  tip_pose,
+  four_positions,
+  two_contacts,
+  catheter,
+  base_wrench,
+  calibration,
+  placed_force,
+  placed_moment
+};
 constexpr Sensing all_sensing[] = {Sensing::tip_pose, Sensing::four_positions, Sensing::two_contacts,
                                    Sensing::catheter, Sensing::base_wrench,    Sensing::calibration};
 
@@ -40,7 +50,8 @@ struct SensingProblem {
   Eigen::VectorXd truth;                // of the unknowns
 };
 
-// With standard deviations as `noise` says. Positions: how many, of four_positions. Throws std::runtime_error where the
+// With standard deviations as `noise` says. Positions: how many, of four_positions; of placed_force and placed_moment
+// sensors of curvature, beside the tip's position. Throws std::runtime_error where the
 // exact reference finds no shape. Cases: the folder of the scene files.
 SensingProblem sensing_problem(Sensing kind, std::uint64_t seed, double noise, const std::filesystem::path& cases,
                                Mismatch mismatch = Mismatch::none, int positions = 4);

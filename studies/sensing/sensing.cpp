@@ -6,6 +6,7 @@
 #include "studies/sensing/data.h"
 #include "studies/sensing/models.h"
 #include "studies/sensing/observability.h"
+#include "studies/sensing/placed_load.h"
 #include "studies/sensing/trials.h"
 #include "studies/study.h"
 
@@ -164,6 +165,12 @@ std::map<std::string, std::string> files_of(const SensingRows& noises, const Sen
   page.set("noise_table", table_of(noises, "problem").markdown());
   page.set("sensor_table", table_of(sensors, "positions").markdown());
   page.set("model_table", table_of(models, "wrong with the model").markdown());
+  const PlacedLoads placed = placed_loads(options.cases, options.progress);
+  page.set("placed_table", placed.table.markdown());
+  page.set("placed_trials", std::to_string(placed.trials));
+  page.set("placed_lost", std::to_string(placed.no_answer));
+  page.set("placed_higher", std::to_string(placed.not_lowest));
+  page.set("placed_far", std::to_string(placed.far_off));
   const Table starts = starts_table(options.cases), laws = laws_table(), times = times_table(options.cases);
   page.set("starts_table", starts.markdown());
   page.set("laws_table", laws.markdown());
@@ -178,6 +185,7 @@ std::map<std::string, std::string> files_of(const SensingRows& noises, const Sen
           {"noise.svg", noise_picture(noises)},
           {"sensors.svg", sensors_picture(sensors)},
           {"starts.csv", starts.csv({"Twelve starts for each of 20 truths."})},
+          {"placed.csv", placed.table.csv({"One load, its place unknown, between sensors of curvature."})},
           {"laws.csv", laws.csv({"A follower's tip force from four positions without noise."})},
           {"timing.csv", times.csv({"One run, 200 estimates a problem."})},
           {"README.md", page.fill(options.pages / "sensing" / "page.md")},
