@@ -62,7 +62,7 @@ void BatchRows::solve(Eigen::Index begin, Eigen::Index end) {
   }
   for (const std::ptrdiff_t row : left_) solve_one_by_one(row);
   for (std::ptrdiff_t row = begin; row < end; ++row) {
-    if (result_.status[static_cast<std::size_t>(row)] == Status::tolerance_not_met) solve_by_itself(row);
+    if (result_.status[static_cast<std::size_t>(row)] != Status::converged) solve_by_itself(row);
   }
 }
 
@@ -141,7 +141,8 @@ void BatchRows::solve_one_by_one(std::ptrdiff_t row) {
        options_.estimate_error ? solver.error_estimate_mm() : 0);
 }
 
-// Lanes and a kept solver take as many arcs as bounds ask for; this tells from solutions how many do.
+// Lanes and a kept solver take as many arcs as bounds ask for; this tells from solutions how many do, and where the rod
+// snaps.
 void BatchRows::solve_by_itself(std::ptrdiff_t row) {
   set_values(row);
   Options options = options_;

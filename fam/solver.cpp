@@ -1,6 +1,7 @@
 #include "fam/solver_impl.h"
 
 #include "scene/load_visitor.h"
+#include "scene/span_facts.h"
 
 #include <cmath>
 #include <numeric>
@@ -150,14 +151,17 @@ Status Solver::Impl::solve_with_arcs(Attempt& attempt, bool on, int newton_steps
   return run.status = verdict(run.engine, attempt.problem.choice().law, extent);
 }
 
-// Where the arcs are too long, or a load is not reached with them, twice as many are tried, until two fail at the same
-// load or the Newton steps are used up.
+// Where the arcs are too long or lead elsewhere than more of them, or a load is not reached with them, twice as many
+// are tried, until two fail at the same load or the Newton steps are used up.
 Solver::Outcome Solver::Impl::solve(Start start, int newton_steps_at_most) {
   Attempt& attempt = next();
   has_previous = false;
-  const bool on = start == Start::last_solution && solved;
-  if (on) attempt.problem.set(scene, options, solved->problem);
-  else attempt.problem.set(scene, options);
+  bool on = start == Start::last_solution && solved;
+  if (on) {
+    attempt.problem.set(scene, options, solved->problem);
+    on = !scene::moments_are_known(attempt.problem.way().to);  // one equilibrium, which is solved for at once
+  }
+  if (!on) attempt.problem.set(scene, options);
   choose_arcs(attempt.problem);
   const Engine& engine = attempt.run.engine;
   Status last = Status::tolerance_not_met;
@@ -168,30 +172,32 @@ Solver::Outcome Solver::Impl::solve(Start start, int newton_steps_at_most) {
     last = solve_with_arcs(attempt, on, steps_left);
     const bool used_up = engine.newton_steps() > steps_left;
     steps_left -= engine.newton_steps();
-    if (last == Status::converged) break;
+    if (last == Status::converged && options.arcs == 0) last = refine(attempt);
+    if (last == Status::converged || last == Status::tolerance_not_met) break;
     const double load = engine.load_factor();  // 0 or 1: not the load is at fault, but the arcs are too long
     const bool stopped_again =
         !engine.is_march() && load > 0 && load < 1 && std::abs(load - last_load) <= same_load * last_load;
     if (options.arcs > 0 || stopped_again || used_up)
       return {last, engine.load_steps(), engine.newton_steps(), message_of(last)};
     for (int& count : arcs) count *= 2;
+    if (last == Status::arc_not_converged) last = Status::tolerance_not_met;  // if these are more than are reserved
   }
-  if (options.arcs == 0 && !refine(attempt)) last = Status::tolerance_not_met;
   if (last == Status::converged) accept(attempt);
   return {last, engine.load_steps(), engine.newton_steps(), message_of(last)};
 }
 
 // The solved arcs turn and swing as far as the a priori bounds allow arcs to turn at most, or there are more of them.
-// False: that takes more than are reserved.
-bool Solver::Impl::refine(Attempt& attempt) {
+// arc_not_converged: more of them do not lead to the same shape.
+Status Solver::Impl::refine(Attempt& attempt) {
   const Problem& problem = attempt.problem;
   const double allowed_rad = allowed_swing_rad(problem.choice().law, problem.tolerance_mm() / problem.length_mm());
   const double times = std::ceil(extent.swing_rad / allowed_rad);
-  if (!(times > 1)) return true;
-  if (!(times * attempt.run.arc_count() <= most_arcs)) return false;
+  if (!(times > 1)) return Status::converged;
+  if (!(times * attempt.run.arc_count() <= most_arcs)) return Status::tolerance_not_met;
   spare[0].solve(problem, attempt.run.arcs, static_cast<int>(times), &attempt.run);
-  if (spare[0].converged()) std::swap(attempt.run, spare[0]);
-  return true;
+  if (!spare[0].converged()) return Status::arc_not_converged;
+  std::swap(attempt.run, spare[0]);
+  return Status::converged;
 }
 
 void Solver::Impl::accept(Attempt& attempt) {

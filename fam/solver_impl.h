@@ -59,7 +59,7 @@ struct Solver::Impl {
   scene::Status solve_with_arcs(Attempt& attempt, bool on, int newton_steps_at_most);
   Vector3d expected_tip_turn_B();
   void choose_arcs(const Problem& problem);
-  bool refine(Attempt& attempt);
+  scene::Status refine(Attempt& attempt);
   void accept(Attempt& attempt);
   void place_ends();
   double swing_of_changes_rad() const;

@@ -188,6 +188,20 @@ TEST(Batch, ARowThatBoundsGiveUpIsWhatSolveGives) {
   EXPECT_LE(batch.error_estimate_mm.maxCoeff(), options.tolerance_mm);
 }
 
+// A twist of 120 rad beside a small force: more arcs than a kept solver reserves.
+TEST(Batch, ARowThatTakesMoreArcsThanReservedIsWhatSolveGives) {
+  const scene::Scene wound = support::uniform_rod(10, support::slender(5, 5),
+                                                  {scene::Moment{6, Frame::follower, {-200, -3, -3}},
+                                                   scene::Force{0.6, Frame::follower, {-1, -0.3, -0.04}, {0, 0}}});
+  EXPECT_EQ(solver_of(wound, {}).solve().status, Status::tolerance_not_met);
+  RowMajorMatrix values(2, 1);
+  values << -200, -100;
+  const fam::BatchResult batch = fam::solve_batch(wound, std::vector<BatchColumn>{{0, 0}}, values);
+  const scene::Equilibrium alone = fam::solve(wound);
+  ASSERT_TRUE(alone.converged() && batch.status[0] == Status::converged && batch.status[1] == Status::converged);
+  EXPECT_EQ(batch.position_mm.row(0).transpose(), alone.tip().position_B_mm);
+}
+
 TEST(Batch, NothingToChangeAndNothingToSolve) {
   const fam::BatchResult same = fam::solve_batch(catheter(), {}, RowMajorMatrix(2, 0));
   EXPECT_EQ(same.position_mm.row(0), same.position_mm.row(1));

@@ -1,6 +1,7 @@
 // What `fam solve` says of random scenes whose growing load it loses, beside the exact reference. Origins stand beside
 // the numbers.
 #include "exact_reference/solve.h"
+#include "fam/batch.h"
 #include "fam/path.h"
 #include "fam/solve.h"
 #include "fam/tolerance.h"
@@ -39,6 +40,11 @@ TEST(Limit, OfColumnsNextToRoundAndStraight) {
       EXPECT_GT(std::abs(stiffer.limit->load_factor / share - 1), 0.01);
     }
   }
+}
+
+TEST(Limit, IsWhyARowOfABatchFails) {
+  const scene::Scene rod = studies::random_scene(studies::campaign_seed(4710, 1949));
+  EXPECT_EQ(fam::solve_batch(rod, {}, fam::RowMajorMatrix(1, 0)).status[0], Status::limit_point);
 }
 
 // A path that cannot start says why as a solve does.
