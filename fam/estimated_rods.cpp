@@ -17,9 +17,9 @@ using UnknownKind = scene::Unknown::Kind;
 // Chosen, not measured.
 constexpr double model_share = 0.03;  // of the smallest standard deviation, that the model may be off by
 constexpr double least_tolerance_over_L = 1e-8, most_tolerance_over_L = 1e-5;
-constexpr double least_place_over_L = 1e-9;  // at the clamp itself no load can stand
-constexpr double least_factor = 0.01;        // of a stiffness
-constexpr int first_reserved_arcs = 32;      // memory for 1024 costs as much as a solve
+constexpr double least_place_over_L = 1e-9;               // at the clamp itself no load can stand
+constexpr double least_factor = 0.01, most_factor = 100;  // of a stiffness
+constexpr int first_reserved_arcs = 32;                   // memory for 1024 costs as much as a solve
 // Farther than that from the last solution an estimate's slopes tell nothing: beyond a fold, or half around the rod's
 // axis. Of 53 662 solves of the study of sensing 51 576 take up to 5 and 285 up to 100; 1801 took up to 552, and 85 %
 // of the time. With 20, 40 and 80 in its place one trial of 200 near the column's load ends in another status; but 40
@@ -84,10 +84,16 @@ double within_bounds(const Unknown& unknown, const scene::EstimationProblem& pro
     case UnknownKind::component:
       return scene::tendon_of(scene.loads[unknown.index]) != nullptr ? std::max(value, 0.0) : value;
     case UnknownKind::bending_factor:
-    case UnknownKind::torsion_factor: return std::max(value, least_factor);
+    case UnknownKind::torsion_factor: return std::clamp(value, least_factor, most_factor);
     case UnknownKind::rest_curvature: break;
   }
   return value;
+}
+
+bool is_at_chosen_bound(const Unknown& unknown, double value) {
+  const bool is_factor = unknown.kind == UnknownKind::bending_factor || unknown.kind == UnknownKind::torsion_factor;
+  constexpr double hair = 1e-9;  // relative: round-off of the step that ends there
+  return is_factor && (value <= (1 + hair) * least_factor || value >= (1 - hair) * most_factor);
 }
 
 EstimatedRods::EstimatedRods(const scene::EstimationProblem& problem, const Options& options)

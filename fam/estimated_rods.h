@@ -16,6 +16,8 @@ double unit_of(const scene::Unknown& unknown, const scene::EstimationProblem& pr
 
 // The nearest value that the scene can have: places on the rod, tensions that pull, factors above zero.
 double within_bounds(const scene::Unknown& unknown, const scene::EstimationProblem& problem, double value);
+// Whether that is a bound which nature does not know: a stiffness' factor may be any positive number.
+bool is_at_chosen_bound(const scene::Unknown& unknown, double value);
 
 class EstimatedRods {
  public:

@@ -30,6 +30,7 @@ class EstimationRows {
   Eigen::Index measured_count() const { return measured_count_; }
 
   void bound(Eigen::VectorXd& x) const;
+  bool is_at_chosen_bound(Eigen::Index k, double x) const { return fam::is_at_chosen_bound(unknown(k), x * unit_[k]); }
 
   bool reserve() { return rods_.reserve(); }  // as EstimatedRods
 

@@ -49,7 +49,7 @@ struct Estimator::Impl {
   // Of the cells looked at.
   std::vector<CellMinimum> minima;
   std::size_t minima_count = 0, lowest = 0, lowest_found = 0, searched_cells = 0;
-  MatrixXd second_moment;
+  MatrixXd second_moment, told;
 
   Impl(scene::EstimationProblem problem, const Options& asked)
       : fit(std::move(problem), asked), rows(fit.rows()), cells(fit.cells()), posterior(fit.x().size()) {
@@ -90,7 +90,11 @@ struct Estimator::Impl {
 
   // Covariance, what is observed, and whether the model fits.
   void judge() {
-    posterior.set(fit.slopes().topRows(rows.measured_count()), rows.prior_sd());
+    told = fit.slopes().topRows(rows.measured_count());
+    for (Index k = 0; k < told.cols(); ++k) {
+      if (rows.is_at_chosen_bound(k, fit.x()[k])) told.col(k).setZero();  // what pushes it there tells nothing else
+    }
+    posterior.set(told, rows.prior_sd());
     tell(posterior, fit.x(), rows.unit(), result);
     result.chi_squared = fit.residual().squaredNorm();
     result.degrees_of_freedom = static_cast<int>(fit.residual().size() - fit.x().size()) + posterior.free_directions();

@@ -20,6 +20,7 @@ constexpr double first_damping = 1e-3, warm_damping = 1e-9, least_damping = 1e-1
 constexpr double least_scaling = 1e-6;  // of the damping matrix, of its largest
 constexpr double converged_decrease = 1e-8;
 constexpr double flat_decrease = 1e-6;       // of 1 + chi-squared: the model's own error may hide what is less
+constexpr double flat_deviations = 0.03;     // from the minimum: as far as the model may be off (model_share)
 constexpr double small_step = 0.01;          // in standard deviations
 constexpr double least_information = 1e-12;  // of the largest, below which a step would be round-off
 constexpr double clear_information = 1e-9;   // of pivots, above which no direction is near that
@@ -276,7 +277,7 @@ bool LeastSquares::is_flat(double chi_squared) {
     bound(moved_, true);
     if (moved_[k] == x_[k]) gradient_[k] = 0;
   }
-  const double flat = flat_decrease * (1 + chi_squared);
+  const double flat = std::max(flat_decrease * (1 + chi_squared), flat_deviations * flat_deviations);
   return possible_decrease() <= flat || step(least_damping, true) <= flat || give_up("no step brings chi-squared down");
 }
 
