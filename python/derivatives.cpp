@@ -2,6 +2,7 @@
 #include "kept_solver.h"
 
 #include <array>
+#include <stdexcept>
 
 namespace fam_python {
 namespace {
@@ -9,16 +10,24 @@ namespace {
 using fam::Parameter;
 using fam::Solver;
 
+// NaN in C++.
+template <class Matrix>
+const Matrix& told(const Matrix& slopes) {
+  if (!slopes.hasNaN()) return slopes;
+  throw std::runtime_error(
+      "no derivatives: the published law has none, and others take more arcs for small changes than reserved_arcs");
+}
+
 template <auto get>
 auto compliance(KeptSolver& kept, double s_mm) {
-  return array_of((kept.solved().*get)(kept.on_rod(s_mm)));
+  return array_of(told((kept.solved().*get)(kept.on_rod(s_mm))));
 }
 
 template <auto get>
 py::array by_load(KeptSolver& kept, py::ssize_t load, double s_mm) {
   const Solver& solver = kept.solved();
   const std::size_t index = kept.load(load);
-  const Solver::Matrix63 slopes = (solver.*get)(index, kept.on_rod(s_mm));
+  const Solver::Matrix63 slopes = told((solver.*get)(index, kept.on_rod(s_mm)));
   if (!kept.is_tendon(index)) return array_of(slopes);
   return array_of(slopes.col(0)).reshape({6, 1});
 }
@@ -27,14 +36,14 @@ template <auto get>
 auto by_section(KeptSolver& kept, py::ssize_t section, double s_mm) {
   const Solver& solver = kept.solved();
   const std::size_t index = kept.section(section);
-  return array_of((solver.*get)(index, kept.on_rod(s_mm)));
+  return array_of(told((solver.*get)(index, kept.on_rod(s_mm))));
 }
 
 template <auto get>
 auto by_place(KeptSolver& kept, py::ssize_t load, double s_mm) {
   const Solver& solver = kept.solved();
   const std::size_t index = kept.point_load(load);
-  return array_of((solver.*get)(index, kept.on_rod(s_mm)));
+  return array_of(told((solver.*get)(index, kept.on_rod(s_mm))));
 }
 
 [[noreturn]] void refuse_parameter(std::size_t at, py::handle parameter, const std::string& rule) {
@@ -86,7 +95,9 @@ py::array jacobian(KeptSolver& kept, py::array_t<double, py::array::c_style | py
 
   const auto rows = static_cast<py::ssize_t>(6 * places.size()), count = static_cast<py::ssize_t>(columns.size());
   py::array_t<double, py::array::f_style> result({rows, count});
-  solver.jacobian(places, columns, Eigen::Map<Eigen::MatrixXd>(result.mutable_data(), rows, count));
+  Eigen::Map<Eigen::MatrixXd> slopes(result.mutable_data(), rows, count);
+  solver.jacobian(places, columns, slopes);
+  told(slopes);
   return result;
 }
 

@@ -268,6 +268,21 @@ def test_columns_of_the_jacobian_are_the_slopes(rod):
         assert np.abs(jacobian - expected).max() <= 1e-12 * np.abs(expected).max()
 
 
+def test_slopes_that_take_more_arcs_than_reserved_raise():
+    circle = {"rod": {"sections": [{"length_mm": 100, "stiffness": {"bending_Nmm2": 1500, "torsion_Nmm2": 1000}}]},
+              "loads": [{"kind": "moment", "at": "tip", "frame": "fixed", "value_Nmm": [0, 0, 100]}]}
+    for reserved, solves in ((2, False), (2000, True)):
+        solver = fam.Solver(circle, tolerance_mm=1e-6, reserved_arcs=reserved)
+        assert solver.solve().status == "converged" and len(solver.s_mm) == 2
+        for ask in (lambda: solver.by_load(0, 100), lambda: solver.compliance(100), lambda: solver.by_stiffness(0, 100),
+                    lambda: solver.by_place(0, 50), lambda: solver.jacobian([100], [("load", 0, "z")])):
+            if solves:
+                assert np.isfinite(ask()).all()
+            else:
+                with pytest.raises(RuntimeError, match="reserved_arcs"):
+                    ask()
+
+
 def test_shapes_of_slopes(rod):
     solver = solved(rod)
     for quantity in "", "strain_", "wrench_":
