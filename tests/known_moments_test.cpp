@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <random>
+#include <tuple>
 
 namespace {
 
@@ -138,6 +139,27 @@ TEST(KnownMoments, OfASolverThatGoesOn) {
     EXPECT_LE(solver.error_estimate_mm(), 1e-6);
     moment_Nmm = i == 0 ? Vector3d(200, 400, 300) : Vector3d(any_Nmm(random), any_Nmm(random), any_Nmm(random));
     solver.set_moment_Nmm(0, moment_Nmm);
+  }
+}
+
+// With a tendon a start is needed; limit: the tolerance, beside a solve a thousand times as tight.
+TEST(KnownMoments, WithATendonASolverTakesNoShapeOfTooFewArcs) {
+  const double tolerance_mm = 1e-3;
+  for (const auto& [from, to, tension_N, to_mm] :
+       {std::tuple{Vector3d(265, 102, 372), Vector3d(248, -364, -291), 3., 50.},
+        {Vector3d(289, 87, 215), Vector3d(-305, 139, -373), 2., 100.},
+        {Vector3d(278, -222, -373), Vector3d(-295, 389, -64), 5., 50.}}) {
+    scene::Scene rod = uniform_rod(100, slender(1500, 1000),
+                                   {scene::Moment{100, Frame::fixed, from}, scene::Tendon{{1.5, 0}, tension_N, to_mm}});
+    auto made = fam::Solver::make(rod, {.tolerance_mm = tolerance_mm});
+    ASSERT_TRUE(std::holds_alternative<fam::Solver>(made));
+    fam::Solver& solver = std::get<fam::Solver>(made);
+    ASSERT_TRUE(solver.solve().converged());
+    solver.set_moment_Nmm(0, to);
+    std::get<scene::Moment>(rod.loads[0]).value_Nmm = to;
+    ASSERT_TRUE(solver.solve().converged());
+    EXPECT_LT((solver.tip().position_B_mm - solved_tip_mm(rod, 1e-6)).norm(), tolerance_mm);
+    EXPECT_GT((solver.tip().position_B_mm - solved_tip_mm(support::stiffer(rod), 1e-6)).norm(), 100 * tolerance_mm);
   }
 }
 
