@@ -137,6 +137,7 @@ TEST(KnownMoments, OfASolverThatGoesOn) {
     EXPECT_LT((solver.tip().position_B_mm - tip_of_round_rod_mm(100, 1500, moment_Nmm)).norm(), 1e-6) << i;
     EXPECT_GT((solver.tip().position_B_mm - tip_of_round_rod_mm(100, 1.05 * 1500, moment_Nmm)).norm(), 1e-2) << i;
     EXPECT_LE(solver.error_estimate_mm(), 1e-6);
+    EXPECT_EQ(solver.s_mm().size(), 2u) << "one arc is exact";
     moment_Nmm = i == 0 ? Vector3d(200, 400, 300) : Vector3d(any_Nmm(random), any_Nmm(random), any_Nmm(random));
     solver.set_moment_Nmm(0, moment_Nmm);
   }

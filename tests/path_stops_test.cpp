@@ -66,6 +66,7 @@ TEST(Path, EndsWhereTheRodIsFreeToTurn) {
     const scene::Path path = fam::Path::follow(request, {.tolerance_mm = 1e-9}).points();
     EXPECT_EQ(path.status, PathStatus::reached);
     const PathPoint& end = path.points.back();
+    EXPECT_EQ(of_kind(path, Kind::end).size(), 1u);
     EXPECT_EQ(end.parameter, 0);
     EXPECT_TRUE(end.neutral);
     EXPECT_EQ(end.index, 0);
