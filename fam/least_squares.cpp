@@ -198,13 +198,17 @@ bool LeastSquares::left_cells() const {
 
 bool LeastSquares::is_lower_at_trial(double chi_squared) {
   const bool solved = rows_.solve(trial_, is_solved_ ? Start::last_solution : Start::unloaded);
-  if (solved && rows_.put_residual(trial_, trial_residual_) && trial_residual_.squaredNorm() < chi_squared) return true;
+  if (solved && rows_.put_residual(trial_, trial_residual_)) {
+    least_rise_ = std::min(least_rise_, trial_residual_.squaredNorm() - chi_squared);
+    if (least_rise_ < 0) return true;
+  }
   is_solved_ = rows_.go_back() && is_solved_;
   return false;
 }
 
 std::optional<double> LeastSquares::descend(double& damping, double chi_squared, double possible) {
   bool inside = false;
+  least_rise_ = HUGE_VAL;
   for (turned_down_ = x_; damping <= most_damping; damping *= 10) {
     const double promised = step(damping, inside);
     if (trial_ == x_ || (inside && promised <= converged_decrease * (1 + chi_squared))) break;
@@ -277,7 +281,8 @@ bool LeastSquares::is_flat(double chi_squared) {
     bound(moved_, true);
     if (moved_[k] == x_[k]) gradient_[k] = 0;
   }
-  const double flat = std::max(flat_decrease * (1 + chi_squared), flat_deviations * flat_deviations);
+  constexpr double flat_rise = flat_deviations * flat_deviations;  // beside a fold steps rise, or lead nowhere
+  const double flat = std::max(flat_decrease * (1 + chi_squared), least_rise_ <= flat_rise ? flat_rise : 0);
   return possible_decrease() <= flat || step(least_damping, true) <= flat || give_up("no step brings chi-squared down");
 }
 

@@ -91,6 +91,7 @@ class LeastSquares {
   Eigen::VectorXd low_, high_;  // the cells that hold x
   Eigen::MatrixXd slopes_, information_, damped_, vectors_;
   Eigen::LDLT<Eigen::MatrixXd> factors_, damped_factors_;  // of the information, damped
+  double least_rise_ = 0;  // of chi-squared at the trials from x that did not bring it down
   bool is_solved_ = false, has_factors_ = false, has_value_ = false;
   int iterations_ = 0;
   scene::Status status_ = scene::Status::not_converged;
