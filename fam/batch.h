@@ -30,10 +30,11 @@ struct BatchResult {
 };
 
 // Row k of values replaces the numbers of the loads named in columns. Each row is a cold solve: what a Solver gives
-// with these values and Start::unloaded, whatever the order of the rows and Options::threads, to the bit; on another
-// vector unit within 1e-11 L (fam/lanes.h). Newton's method goes to round-off here. A row whose error estimate exceeds the
-// tolerance (Options::arcs = 0) has tolerance_not_met. Throws scene::SceneError on wrong input: a column that is not
-// there or twice, another number of columns than values has, NaN, a negative tension.
+// with these values and Start::unloaded, and where that is no answer fam::solve, whatever the order of the rows and
+// Options::threads, to the bit; on another vector unit within 1e-11 L (fam/lanes.h). Newton's method goes to round-off
+// here. A row whose error estimate exceeds the tolerance (Options::arcs = 0) has tolerance_not_met. Throws
+// scene::SceneError on wrong input: a column that is not there or twice, another number of columns than values has,
+// NaN, a negative tension.
 BatchResult solve_batch(const scene::Scene& scene, std::span<const BatchColumn> columns,
                         Eigen::Ref<const RowMajorMatrix> values, const Options& options = {});
 

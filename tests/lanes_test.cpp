@@ -186,7 +186,8 @@ TEST(Lanes, RandomScenes) {
   const LaneUnit& unit = fam::lane_units().front();
   studies::RandomSceneLimits limits;
   limits.load_max = 1;
-  const fam::Options options = with_arcs(6);
+  fam::Options options = with_arcs(6);
+  options.locate_limit = false;  // a kept solver does not
   Difference largest;
   int rows = 0, in_lanes = 0;
   for (unsigned seed = 600; seed < 900; ++seed) {
