@@ -306,15 +306,28 @@ BasicScrew<double, D> BasicShape<D>::strain_under(const SpanArcs<D>& span,
 template <int D>
 typename BasicShape<D>::Sections BasicShape<D>::sections(ArcInterior<D>& arc, std::span<const double> fractions) const {
   Sections result = totals(arc, fractions);
-  const auto& tendons = arc.span().constants.tendons;
-  if (tendons.empty()) return result;
-  for (std::size_t i = 0; i < fractions.size(); ++i) {
-    const Eigen::Matrix<double, D, D>& R = result[i].pose.rotation_BS;
-    const BasicWrench<double, D> total_S = turned<D>(R.transpose(), result[i].own_B);
-    const BasicScrew<double, D> strain = strain_under(arc.span(), total_S);
-    result[i].own_B = turned<D>(R, total_S + (-1.0) * tendon_pulls(tendons, strain));
-  }
+  for (std::size_t i = 0; i < fractions.size(); ++i) take_pulls_off(arc.span(), result[i]);
   return result;
+}
+
+template <int D>
+typename BasicShape<D>::Section BasicShape<D>::section(ArcInterior<D>& arc, double fraction) const {
+  if (fraction > 0 && fraction < 1) return sections(arc, {&fraction, 1})[0];
+  const auto k = static_cast<std::size_t>(arc.arc());
+  Section end =
+      fraction <= 0 ? Section{rod_.poses[k], proximal_total_B(arc)} : Section{rod_.poses[k + 1], distal_totals_B_[k]};
+  take_pulls_off(arc.span(), end);
+  return end;
+}
+
+// From the total wrench.
+template <int D>
+void BasicShape<D>::take_pulls_off(const SpanArcs<D>& span, Section& section) const {
+  const auto& tendons = span.constants.tendons;
+  if (tendons.empty()) return;
+  const Eigen::Matrix<double, D, D>& R = section.pose.rotation_BS;
+  const BasicWrench<double, D> total_S = turned<D>(R.transpose(), section.own_B);
+  section.own_B = turned<D>(R, total_S + (-1.0) * tendon_pulls(tendons, strain_under(span, total_S)));
 }
 
 template class ArcInterior<2>;

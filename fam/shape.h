@@ -87,12 +87,14 @@ class BasicShape {
   ArcInterior<D> interior(int arc) const { return {rod_, span_of(arc), arc}; }
   // At no more fractions of an arc than places_at_once.
   Sections sections(ArcInterior<D>& arc, std::span<const double> fractions) const;
+  Section section(ArcInterior<D>& arc, double fraction) const;
 
  private:
   void begin(const SolvedRod<D>& rod);
   // Total wrenches, tendons' pulls among them: base frame; section frame.
   void add_point_loads(const SpanArcs<D>& span, BasicWrench<double, D>& total_B) const;
   BasicWrench<double, D> proximal_total_B(ArcInterior<D>& arc) const;
+  void take_pulls_off(const SpanArcs<D>& span, Section& section) const;
   Sections totals(ArcInterior<D>& arc, std::span<const double> fractions) const;
   BasicWrench<double, D> wrench_towards(const ArcInterior<D>& arc, double fraction,
                                         std::span<const BasicPose<D>> poses) const;

@@ -108,7 +108,7 @@ scene::Wrench Solution::own_wrench_B(const Place& place) const {
   const Matrix3d& rotation_BP = problem_->choice().rotation_BP;
   const auto own_B = [&](const auto& shape) -> scene::Wrench {
     auto arc = shape.interior(place.arc);
-    const auto own = shape.sections(arc, {&place.fraction, 1})[0].own_B;
+    const auto own = shape.section(arc, place.fraction).own_B;
     return {in_base(own.force_N, rotation_BP), angular_in_base(own.moment_Nmm, rotation_BP)};
   };
   shape();

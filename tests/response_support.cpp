@@ -52,7 +52,7 @@ std::pair<fam::ArcInterior<3>, double> SolvedRod::place(double s_mm) const {
 
 fam::BasicShape<3>::Section SolvedRod::section(double s_mm) const {
   auto [arc, fraction] = place(s_mm);
-  return shape_->sections(arc, {&fraction, 1})[0];
+  return shape_->section(arc, fraction);
 }
 
 fam::BasicScrew<double, 3> SolvedRod::strain_per_mm(double s_mm) const {
