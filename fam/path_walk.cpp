@@ -19,8 +19,7 @@ constexpr double least_alignment = 0.92;  // of the tangents at its ends
 // lie in one, as they do beside each other where a rod buckles that is next to round and straight; down to here.
 constexpr double unwatched_length = 1e-9;
 constexpr double first_look = 1e-4;  // of a step, where nothing is known of the determinant before
-constexpr double free_turn_reach =
-    1e-3;  // of a step to where the rod is free to turn; chosen: the turn is extrapolated
+constexpr double free_turn_reach = 1e-3;  // of the step to a free turn, where the rod's turn is extrapolated; chosen
 
 }  // namespace
 

@@ -33,6 +33,20 @@ TEST(Sensing, TipForcesAreAsSureAsTheySay) {
   }
 }
 
+// A load of unknown place between five sensors of curvature; beside it a model that is 5 % too stiff.
+TEST(Sensing, PlacesBetweenSensorsAreAsSureAsTheySay) {
+  for (const Sensing kind : {Sensing::placed_force, Sensing::placed_moment}) {
+    SensingSettings settings = few(kind, 1e-5);
+    settings.positions = 5;
+    const SensingResult found = ran(settings);
+    EXPECT_EQ(found.counted(), 400);
+    EXPECT_EQ(found.places, 400);
+    EXPECT_LE(found.place_beyond_3sd, 4);  // 1 of 370 normal numbers is
+    settings.mismatch = Mismatch::stiffer;
+    EXPECT_GT(ran(settings).nees, 10 * found.unknowns);
+  }
+}
+
 // The twins: the trials must see a model that is 5 % too stiff.
 TEST(Sensing, StifferModelLeavesTheBand) {
   SensingSettings settings = few(Sensing::four_positions, 0.01);

@@ -75,6 +75,7 @@ PlacedLoads placed_loads(const std::filesystem::path& cases, Progress::Style pro
         }
         result.trials += truths;
         result.no_answer += all.no_answer;
+        result.unobservable += all.unobservable;
         result.not_lowest += all.not_lowest;
         result.far_off += all.far_off;
         const int placed = truths - all.no_answer - all.unobservable;

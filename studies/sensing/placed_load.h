@@ -10,7 +10,7 @@ namespace studies {
 
 struct PlacedLoads {
   Table table;
-  int trials = 0, no_answer = 0, not_lowest = 0, far_off = 0;
+  int trials = 0, no_answer = 0, unobservable = 0, not_lowest = 0, far_off = 0;
 };
 
 // Where a load passes such a sensor, chi-squared has a corner (of a moment a jump): between two there may be a minimum

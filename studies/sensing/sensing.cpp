@@ -169,6 +169,7 @@ std::map<std::string, std::string> files_of(const SensingRows& noises, const Sen
   page.set("placed_table", placed.table.markdown());
   page.set("placed_trials", std::to_string(placed.trials));
   page.set("placed_lost", std::to_string(placed.no_answer));
+  page.set("placed_hidden", std::to_string(placed.unobservable));
   page.set("placed_higher", std::to_string(placed.not_lowest));
   page.set("placed_far", std::to_string(placed.far_off));
   const Table starts = starts_table(options.cases), laws = laws_table(), times = times_table(options.cases);

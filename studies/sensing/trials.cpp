@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
 
 namespace studies {
@@ -26,7 +27,8 @@ void state(scene::Measurement& measurement, double factor) {
 Eigen::VectorXd nearest_truth(const fam::Estimate& found, const SensingProblem& problem) {
   const auto& unknowns = problem.estimation.unknowns;
   const Eigen::Index half = problem.truth.size() / 2;
-  const bool contacts = unknowns.back().kind == scene::Unknown::Kind::place;
+  const auto is_place = [](const scene::Unknown& unknown) { return unknown.kind == scene::Unknown::Kind::place; };
+  const bool contacts = std::count_if(unknowns.begin(), unknowns.end(), is_place) == 2;
   if (!contacts || found.mean[half - 1] <= found.mean[2 * half - 1]) return problem.truth;
   Eigen::VectorXd swapped(2 * half);
   swapped << problem.truth.tail(half), problem.truth.head(half);
